@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace wavetank {
+
+enum class LogLevel { info, warning, error };
+
+/// Receives one line of text, without a newline. May be called from the thread that runs the simulation.
+using LogSink = std::function<void(LogLevel level, const std::string& line)>;
+
+/// Replaces the sink of the whole process; the default writes to standard error. Programs set it once, before anything else runs.
+void set_log_sink(LogSink sink);
+
+void log(LogLevel level, const std::string& line);
+
+}  // namespace wavetank

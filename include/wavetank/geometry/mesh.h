@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+using Eigen::Vector3i;
+
+/// Triangles over shared vertices (equal positions are one vertex). Unit: m.
+struct TriangleMesh {
+  std::string name;  ///< of the file or the shape, for messages
+  std::vector<Vector3d> vertices;
+  std::vector<Vector3i> triangles;
+
+  Vector3d corner(std::size_t triangle, int which) const { return vertices[triangles[triangle][which]]; }
+  Box bounding_box() const;
+  /// By the divergence theorem, positive when a closed mesh's triangles are wound outwards. m³.
+  double signed_volume() const;
+};
+
+/// Turns a URI of a scheme that geometry does not know (package://) into a path; throws Error if it cannot.
+using ResourceResolver = std::function<std::string(const std::string& uri)>;
+
+/// Reads every submesh of the file with its node transforms, scales, rotates and translates it, merges equal vertices, drops exact duplicates.
+/// Throws Error for a missing, unreadable, corrupt or empty file, non-finite vertices, or a file without triangles.
+TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
+
+/// The twelve triangles of a box, wound outwards; without those of the top if it is open.
+TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name);
+
+/// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed), no edge shared by more than two triangles (non-manifold).
+void check_surface(TriangleMesh& mesh);
+
+/// Further checks for a body, which must enclose its volume: every edge shared by exactly two triangles, consistently wound (turned over where not),
+/// volume > 0 after orienting outwards, no self-inverted part. Throws Error naming the mesh and where (an edge's coordinates).
+void check_closed(TriangleMesh& mesh);
+
+/// Whether a point lies inside a closed mesh (generalised winding number > 1/2: robust at edges and vertices).
+bool inside(const TriangleMesh& closed, const Vector3d& point);
+
+/// Distance from a point to the nearest triangle, m.
+double distance(const TriangleMesh& mesh, const Vector3d& point);
+
+}  // namespace wavetank

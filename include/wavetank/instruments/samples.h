@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace wavetank {
+
+using Eigen::Vector3d;
+
+struct PressureSample {
+  double time = 0;                ///< s, exactly on the instrument's clock
+  std::vector<double> pressures;  ///< Pa, gauge, in the case's order of pressure probes
+};
+
+struct LevelSample {
+  double time = 0;             ///< s
+  std::vector<double> levels;  ///< m, z of the free surface on each gauge's line; the floor's z where it is dry
+};
+
+/// Of the fluid on a body: about the body's centre of volume, for the tank about the origin. 2-D: per metre of width.
+struct Wrench {
+  Vector3d pressure_force = Vector3d::Zero();    ///< N
+  Vector3d viscous_force = Vector3d::Zero();     ///< N
+  Vector3d pressure_torque = Vector3d::Zero();   ///< N·m
+  Vector3d viscous_torque = Vector3d::Zero();    ///< N·m
+};
+
+struct WrenchSample {
+  double time = 0;                ///< s
+  std::vector<Wrench> wrenches;   ///< 0 the tank, 1 + i body i
+};
+
+struct EnergySample {
+  double time = 0;         ///< s
+  double kinetic = 0;      ///< J (2-D: J/m)
+  double potential = 0;    ///< J, −Σ m g·x about the domain's floor
+  double compression = 0;  ///< J, of the fluid's elasticity
+  double mass = 0;         ///< kg (2-D: kg/m)
+};
+
+/// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.
+struct Samples {
+  std::vector<PressureSample> pressures;
+  std::vector<LevelSample> levels;
+  std::vector<WrenchSample> wrenches;
+  std::vector<EnergySample> energies;
+};
+
+}  // namespace wavetank

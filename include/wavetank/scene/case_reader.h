@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+/// One `--set a/b/c=value`: replaces or adds a key before the case is checked. Lists are indexed by number (fluid/fill/0/box/max).
+struct Override {
+  std::string key;
+  std::string value;  ///< YAML
+};
+
+/// Reads and checks a whole case from a YAML file. Throws Error naming the file, line, key's path, what was given, what is allowed, and
+/// for an unknown key the nearest known one.
+Case read_case_file(const std::string& path, const std::vector<Override>& overrides = {});
+
+/// The same from YAML text; `source` stands for the file's name in messages (the parameter server's namespace, say).
+Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides = {});
+
+/// The complete case, every default filled in, as YAML that read_case_text accepts and reads back to the same case.
+std::string write_case(const Case& checked);
+
+/// Every key with its type, unit, range, default and description, as the Markdown page docs/case.md.
+std::string describe_case_keys();
+
+}  // namespace wavetank

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wavetank/common/error.h"
+#include "wavetank/geometry/layout.h"
+#include "wavetank/instruments/samples.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+/// The fluid at one instant, for clouds and files. Arrays of one length, in no particular order; `id` names a particle for good.
+struct ParticleCloud {
+  double time = 0;  ///< s
+  std::vector<std::uint32_t> id;
+  std::vector<Eigen::Vector3f> position;   ///< m, in the case's coordinates
+  std::vector<Eigen::Vector3f> velocity;   ///< m/s
+  std::vector<float> pressure;             ///< Pa, gauge
+  std::vector<float> density;              ///< kg/m³
+  std::vector<float> shepard;              ///< γ, 0…1
+  std::vector<std::uint8_t> surface;       ///< 1 on the free surface
+};
+
+struct SolverState {
+  double time = 0;         ///< s
+  std::uint64_t step = 0;
+  double time_step = 0;    ///< s, of the next step
+  std::size_t particles = 0;
+  double greatest_speed = 0;        ///< m/s
+  std::uint64_t guard_hits = 0;     ///< since the start: times a particle was kept from crossing a wall
+  std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was bounded to its range
+};
+
+/// The watchdog's: a running simulation that may not go on. what() says which particle, where, when, in which step.
+class Violation : public Error {
+ public:
+  using Error::Error;
+};
+
+struct KernelTime {
+  std::string kernel;
+  std::uint64_t launches = 0;
+  double seconds = 0;
+};
+
+struct SimulationOptions {
+  ResourceResolver resolve;                                  ///< of package:// URIs; may be empty
+  /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
+  std::function<void(const std::string& what, double fraction)> progress;
+  bool time_kernels = false;
+};
+
+/// One simulation made from a case: fluid, bodies and instruments. Not thread-safe: one thread at a time.
+class Simulation {
+ public:
+  /// Lays the case out, opens the device, packs the particles: ready at time 0. The samples at time 0 are ready to be taken.
+  explicit Simulation(const Case& checked, SimulationOptions options = {});
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Continues bit for bit from a snapshot of the same case on the same device. Throws Error for a truncated, foreign or mismatched file
+  /// and leaves this simulation as it was.
+  void restore(const std::string& path);
+  /// Writes a snapshot, whole or not at all.
+  void save(const std::string& path) const;
+  /// Back to time 0, the same bits as at first.
+  void reset();
+
+  /// One time step. Throws Violation when the watchdog stops the simulation; samples up to then can still be taken.
+  void advance();
+  Samples take_samples();
+
+  SolverState state() const;
+  EnergySample energies() const;
+  ParticleCloud particles() const;          ///< all
+  ParticleCloud free_surface() const;       ///< those on the free surface
+  const Case& scene() const;                ///< the case, with its automatic values settled (sound speed, spacing, support)
+  const Layout& layout() const;
+  std::string device_description() const;   ///< device, platform, driver, in one line
+  std::string summary() const;              ///< several lines: spacing, h, c₀, bounds on Δt, particles, elements, memory, device
+  std::vector<KernelTime> kernel_times() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// What `--check` reports: made from the layout alone, without running.
+struct Estimate {
+  std::size_t particles = 0;
+  std::size_t wall_elements = 0;
+  std::size_t lid_elements = 0;
+  double device_memory = 0;   ///< bytes
+  double time_step = 0;       ///< s, the acoustic bound at rest
+  double wall_seconds = 0;    ///< of the whole run, from a short measurement on the case's device
+};
+Estimate estimate(const Case& checked, const SimulationOptions& options = {});
+
+}  // namespace wavetank

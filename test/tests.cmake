@@ -1,0 +1,16 @@
+# Each test/<room>/<name>_test.cpp is one gtest program <room>_<name>_test, linked with its room.
+get_property(rooms GLOBAL PROPERTY WAVETANK_ROOMS)
+foreach(library ${rooms})
+  string(REGEX REPLACE "^wavetank_" "" room ${library})
+  string(REPLACE "node_library" "node" room ${room})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/${room}/*_test.cpp)
+  foreach(source ${sources})
+    get_filename_component(name ${source} NAME_WE)
+    catkin_add_gtest(${room}_${name} ${source} TIMEOUT 600)
+    target_link_libraries(${room}_${name} ${library})
+    target_compile_definitions(${room}_${name} PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
+    if(WAVETANK_STANDALONE)
+      set_target_properties(${room}_${name} PROPERTIES EXCLUDE_FROM_ALL FALSE)  # so that a plain build has them
+    endif()
+  endforeach()
+endforeach()
