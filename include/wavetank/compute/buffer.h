@@ -14,6 +14,10 @@ class Memory {
   Memory() = default;
   /// bytes may be 0 (a 4-byte dummy is made, so that it can be passed to a kernel). Contents start as zero bytes.
   Memory(const Device& device, std::size_t bytes);
+  Memory(Memory&&) noexcept = default;
+  Memory& operator=(Memory&&) noexcept = default;
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
   void write(const void* from, std::size_t bytes, std::size_t offset = 0);        ///< blocking
   void read(void* to, std::size_t bytes, std::size_t offset = 0) const;           ///< blocking, after everything queued before
   void fill_zero();

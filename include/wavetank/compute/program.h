@@ -63,6 +63,7 @@ class Program {
   Kernel kernel(const std::string& name) const;
 
  private:
+  friend class Kernel;
   struct State;
   std::shared_ptr<State> state_;
 };

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "opencl_call.h"
+#include "wavetank/compute/device.h"
+
+namespace wavetank::compute {
+
+/// The OpenCL handle behind an entry of list_devices(); throws Error if that entry is there no more.
+cl_device_id find_device(const DeviceInfo& info);
+
+struct Device::State {
+  State(const DeviceInfo& device_info, bool time_kernels);
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void finish() const;
+  /// Takes over the event of one launch, to be counted once it has run.
+  void add_launch(const std::string& kernel, cl_event event);
+  /// Counts the launches that have run; with `wait`, all of them.
+  void harvest(bool wait);
+
+  DeviceInfo info;
+  std::string platform_version;
+  cl_device_id id = nullptr;
+  cl_context context = nullptr;
+  cl_command_queue queue = nullptr;
+  bool timing = false;  ///< false also when the driver has no profiling queue
+  std::atomic<std::size_t> allocated{0};
+
+  struct Launch {
+    std::string kernel;
+    cl_event event;
+  };
+  std::mutex timing_mutex;  ///< guards the two below: timings() may be asked for from another thread than the one that launches
+  std::deque<Launch> pending;
+  std::map<std::string, KernelTiming> timings;
+
+ private:
+  void count_front();
+};
+
+}  // namespace wavetank::compute

@@ -1,0 +1,107 @@
+#include "wavetank/compute/program.h"
+
+#include "program_cache.h"
+#include "program_state.h"
+#include "source.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank::compute {
+namespace {
+
+Hash key_of(const Device::State& device, const std::string& source, const std::string& options) {
+  Hash key;
+  for (const std::string* part : {&source, &options, &device.info.name, &device.info.driver, &device.info.version,
+                                  &device.info.platform_name, &device.platform_version})
+    key.add(*part);
+  return key;
+}
+
+std::string build_log(cl_program program, cl_device_id device) {
+  std::size_t size = 0;
+  if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
+  std::string log(size, '\0');
+  if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, &log[0], nullptr) != CL_SUCCESS) return "";
+  return log.c_str();
+}
+
+std::string kernel_names(cl_program program) {
+  std::size_t size = 0;
+  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
+  std::string names(size, '\0');
+  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, size, &names[0], nullptr) != CL_SUCCESS) return "";
+  std::string listed;
+  for (const char* c = names.c_str(); *c != '\0'; ++c) listed += *c == ';' ? std::string(", ") : std::string(1, *c);
+  return listed;
+}
+
+}  // namespace
+
+Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& options)
+    : device(std::move(on)), main(main_file) {
+  const std::string source = resolve_includes(files, main);
+  const std::string directory = cache_directory();
+  const Hash key = key_of(*device, source, options);
+  if (!directory.empty() && build_from_binary(load_binary(directory, key), options)) return;
+  build_from_source(files, source, options);
+  if (!directory.empty()) store_binary(directory, key, binary());
+}
+
+Program::State::~State() { clReleaseProgram(handle); }
+
+bool Program::State::build_from_binary(const std::vector<unsigned char>& binary, const std::string& options) {
+  if (binary.empty()) return false;
+  const unsigned char* bytes = binary.data();
+  const std::size_t size = binary.size();
+  cl_int status = CL_SUCCESS, code = CL_SUCCESS;
+  handle = clCreateProgramWithBinary(device->context, 1, &device->id, &size, &bytes, &status, &code);
+  if (handle != nullptr && code == CL_SUCCESS && status == CL_SUCCESS &&
+      clBuildProgram(handle, 1, &device->id, options.c_str(), nullptr, nullptr) == CL_SUCCESS)
+    return true;
+  if (handle != nullptr) clReleaseProgram(handle);
+  handle = nullptr;
+  return false;
+}
+
+void Program::State::build_from_source(const SourceFiles& files, const std::string& source, const std::string& options) {
+  const DeviceInfo& info = device->info;
+  const char* text = source.c_str();
+  const std::size_t size = source.size();
+  cl_int code = CL_SUCCESS;
+  handle = clCreateProgramWithSource(device->context, 1, &text, &size, &code);
+  check(code, "clCreateProgramWithSource", info, "reading " + main);
+  code = clBuildProgram(handle, 1, &device->id, options.c_str(), nullptr, nullptr);
+  if (code == CL_SUCCESS) return;
+  const std::string log = build_log(handle, device->id);
+  clReleaseProgram(handle);
+  if (code == CL_INVALID_BUILD_OPTIONS) throw Error(info.name + " does not take the build options \"" + options + "\" for " + main);
+  if (code != CL_BUILD_PROGRAM_FAILURE && log.empty()) check(code, "clBuildProgram", info, "compiling " + main);
+  throw Error("the compiler of " + info.name + " refused " + main + " with the options \"" + options +
+              "\": " + explain_build_log(log, files));
+}
+
+std::vector<unsigned char> Program::State::binary() const {
+  std::size_t size = 0;
+  if (clGetProgramInfo(handle, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr) != CL_SUCCESS || size == 0) return {};
+  std::vector<unsigned char> bytes(size);
+  unsigned char* to = bytes.data();
+  if (clGetProgramInfo(handle, CL_PROGRAM_BINARIES, sizeof to, &to, nullptr) != CL_SUCCESS) return {};
+  return bytes;
+}
+
+Program::Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options)
+    : state_(std::make_shared<State>(device.state(), files, main, options)) {}
+
+Kernel Program::kernel(const std::string& name) const {
+  if (!state_) throw Error("the kernel " + name + " was asked of a program that has not been built");
+  Kernel kernel;
+  try {
+    kernel.state_ = std::make_shared<Kernel::State>(state_, name);
+  } catch (const Error&) {
+    const std::string names = kernel_names(state_->handle);
+    if ((", " + names + ",").find(", " + name + ",") != std::string::npos) throw;
+    throw Error(state_->main + " has no kernel \"" + name + "\"; it has: " + (names.empty() ? "none" : names));
+  }
+  return kernel;
+}
+
+}  // namespace wavetank::compute

@@ -1,0 +1,166 @@
+#include "source.h"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank::compute {
+namespace {
+
+constexpr std::size_t errors_shown = 3;
+constexpr int unreadable_log_lines = 20;
+
+std::string names_of(const SourceFiles& files) {
+  std::string names;
+  for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.first;
+  return names.empty() ? "none" : names;
+}
+
+/// What follows '#' and blanks at the start of a line; empty for a line that is no directive.
+std::string directive(const std::string& line) {
+  const auto hash = line.find_first_not_of(" \t");
+  if (hash == std::string::npos || line[hash] != '#') return "";
+  const auto word = line.find_first_not_of(" \t", hash + 1);
+  return word == std::string::npos ? "" : line.substr(word);
+}
+
+bool starts_with(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
+
+/// The NAME of `include "NAME"`; empty if the directive is another.
+std::string included_name(const std::string& directive) {
+  if (!starts_with(directive, "include")) return "";
+  const auto open = directive.find_first_not_of(" \t", std::string("include").size());
+  if (open == std::string::npos || directive[open] != '"') return "";
+  const auto close = directive.find('"', open + 1);
+  return close == std::string::npos ? "" : directive.substr(open + 1, close - open - 1);
+}
+
+/// Writes one program text out of many files.
+class Resolver {
+ public:
+  explicit Resolver(const SourceFiles& files) : files_(files) {}
+
+  void add(const std::string& name, const std::string& text, bool conditional) {
+    open_.insert(name);
+    if (!conditional) written_.insert(name);
+    out_ << "#line 1 \"" << name << "\"\n";
+    std::istringstream lines(text);
+    std::string line;
+    int conditions = conditional ? 1 : 0;  // how many #if's surround this line
+    for (int number = 1; std::getline(lines, line); ++number) {
+      const std::string command = directive(line);
+      if (starts_with(command, "if")) ++conditions;
+      if (starts_with(command, "endif")) --conditions;
+      const std::string included = included_name(command);
+      if (included.empty()) {
+        out_ << line << '\n';
+      } else {
+        include(included, name, number, conditions > 0);
+        out_ << "#line " << number + 1 << " \"" << name << "\"\n";
+      }
+    }
+    open_.erase(name);
+  }
+
+  std::string text() const { return out_.str(); }
+
+ private:
+  void include(const std::string& name, const std::string& from, int line, bool conditional) {
+    const auto file = files_.find(name);
+    if (file == files_.end())
+      throw Error(from + ":" + std::to_string(line) + ": #include \"" + name + "\" names no kernel source; there are: " + names_of(files_));
+    if (open_.count(name) != 0 || written_.count(name) != 0) return;
+    // An include under a condition may turn out not to be taken, so whether the file has been read is left to the preprocessor.
+    const std::string guard = guard_of(name);
+    out_ << "#ifndef " << guard << "\n#define " << guard << '\n';
+    add(name, file->second, conditional);
+    out_ << "#endif\n";
+  }
+
+  static std::string guard_of(const std::string& name) {
+    std::string guard = "WAVETANK_INCLUDED_";
+    for (const char c : name) guard += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    return guard;
+  }
+
+  const SourceFiles& files_;
+  std::ostringstream out_;
+  std::set<std::string> open_;     ///< being written, from the main file down to the present one
+  std::set<std::string> written_;  ///< written where no condition can have left them out
+};
+
+std::string source_line(const SourceFiles& files, const std::string& file, int number) {
+  const auto source = files.find(file);
+  if (source == files.end()) return "";
+  std::istringstream lines(source->second);
+  std::string line;
+  for (int i = 0; i < number; ++i)
+    if (!std::getline(lines, line)) return "";
+  const auto first = line.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+std::string first_lines(const std::string& text, int count) {
+  std::istringstream lines(text);
+  std::string line, first;
+  while (count-- > 0 && std::getline(lines, line)) first += line + '\n';
+  while (!first.empty() && std::isspace(static_cast<unsigned char>(first.back()))) first.pop_back();
+  return first;
+}
+
+}  // namespace
+
+std::string resolve_includes(const SourceFiles& files, const std::string& main) {
+  const auto file = files.find(main);
+  if (file == files.end()) throw Error("there is no kernel source called \"" + main + "\"; there are: " + names_of(files));
+  Resolver resolver(files);
+  resolver.add(main, file->second, false);
+  return resolver.text();
+}
+
+std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files) {
+  // Clang and all that grew from it: FILE:LINE:COLUMN: error: MESSAGE; others: "FILE", line LINE: error: MESSAGE
+  static const std::regex place("^(?:error: )?\"?([^:\"]+)\"?(?::|, line )([0-9]+)(?::[0-9]+)?: *(?:fatal |catastrophic )?error: *(.*)$");
+  std::vector<CompilerError> errors;
+  std::istringstream lines(log);
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    if (line.size() > 2000 || !std::regex_match(line, match, place)) continue;
+    CompilerError error;
+    error.message = match[3];
+    const std::string name = base_name(match[1]);
+    if (files.count(name) != 0) {
+      error.file = name;
+      error.line = std::stoi(match[2].str().substr(0, 9));
+    }
+    errors.push_back(error);
+  }
+  return errors;
+}
+
+std::string explain_build_log(const std::string& log, const SourceFiles& files) {
+  const auto errors = compiler_errors(log, files);
+  if (errors.empty()) {
+    const std::string text = first_lines(log, unreadable_log_lines);
+    return text.empty() ? "the compiler says nothing about why" : text;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(errors.size(), errors_shown); ++i) {
+    const CompilerError& error = errors[i];
+    if (i > 0) text += '\n';
+    if (!error.file.empty()) text += error.file + ":" + std::to_string(error.line) + ": ";
+    text += error.message;
+    const std::string quoted = source_line(files, error.file, error.line);
+    if (!quoted.empty()) text += "\n    " + quoted;
+  }
+  if (errors.size() > errors_shown) text += "\n(and " + std::to_string(errors.size() - errors_shown) + " more)";
+  return text;
+}
+
+}  // namespace wavetank::compute

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wavetank/compute/program.h"
+
+namespace wavetank::compute {
+
+/// The text of files[main] with every `#include "NAME"` replaced by that file's text, once each, and #line directives that keep the
+/// compiler's messages in terms of the files' own names and lines. Throws Error for a name that is not among the files.
+std::string resolve_includes(const SourceFiles& files, const std::string& main);
+
+/// One error of a compiler's log, in terms of the kernel sources.
+struct CompilerError {
+  std::string file;     ///< as in SourceFiles; empty if the message names none of them
+  int line = 0;         ///< from 1
+  std::string message;  ///< what the compiler says, without the place
+};
+
+/// The errors of the log, in its order.
+std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files);
+
+/// One readable text of what the compiler refused: the first errors, each with file, line and the source line itself. A log that is not
+/// understood is given as it is, shortened.
+std::string explain_build_log(const std::string& log, const SourceFiles& files);
+
+}  // namespace wavetank::compute
