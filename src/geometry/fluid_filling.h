@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "open_space.h"
+#include "outline.h"
+#include "wavetank/geometry/layout.h"
+
+namespace wavetank {
+
+/// A closed body, for the question what lies inside it.
+struct Solid {
+  std::string name;
+  const TriangleMesh* mesh = nullptr;
+  Outline outline;  ///< in 2-D
+  int dimensions = 3;
+
+  bool contains(const Vector3d& point) const { return dimensions == 2 ? inside(outline, point) : inside(*mesh, point); }
+  Box bounds() const { return dimensions == 2 ? bounding_box(outline) : mesh->bounding_box(); }
+};
+
+/// What the fluid is filled into.
+struct Basin {
+  int dimensions = 3;
+  Box domain;                          ///< bounding box of the tank's walls; 2-D: y = 0
+  const TriangleGrid* grid = nullptr;  ///< all walls
+  std::vector<Solid> solids;           ///< closed bodies
+};
+
+/// One region of the case, filled: a regular lattice and which of its cells hold a particle.
+struct FilledRegion {
+  std::string key;       ///< of the case, for messages: fluid/fill/0
+  Vector3d first, step;  ///< centre of cell (0, 0, 0) and the cells' sides, m (2-D: step y = 0)
+  Vector3i count;
+  std::vector<char> filled;        ///< x fastest
+  std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
+  double level = 0;                ///< top of the region, m
+  double volume = 0;               ///< of a cell, m³ (2-D: m²)
+
+  std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i; }
+  Vector3d centre(int i, int j, int k) const { return first + step.cwiseProduct(Vector3d(i, j, k)); }
+};
+
+/// A box: a lattice fitted to it, so that its volume is exact. Cells inside bodies stay empty; throws Error where the box sticks out of the
+/// tank.
+FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const std::string& key);
+
+/// From the seed to everywhere below the level that can be reached without crossing a wall. The lattice is fitted to the reached space: for
+/// a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong place and for a
+/// leak.
+FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spacing, const std::string& key);
+
+/// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no
+/// room.
+void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
+
+/// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's level.
+void check_watertight(const Basin& basin, double spacing, const FilledRegion& region);
+
+/// Throws Error if particles of two regions are nearer than half the spacing.
+void check_overlap(const std::vector<FilledRegion>& regions, double spacing);
+
+/// Elements on every face of a filled cell towards a cell that is open but not filled, here or by another region.
+std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std::vector<FilledRegion>& regions);
+
+}  // namespace wavetank

@@ -1,0 +1,115 @@
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "fluid_filling.h"
+#include "polygon.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+/// Which region's particle is near a place.
+class ParticleFinder {
+ public:
+  ParticleFinder(const std::vector<FilledRegion>& regions, double cell) : regions_(regions), cell_(cell), origin_(regions.front().first) {
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      for (std::size_t c = 0; c < regions[r].filled.size(); ++c) {
+        if (regions[r].filled[c]) cells_[key(at(regions[r].position[c]))].push_back({r, c});
+      }
+    }
+  }
+
+  /// A particle of another region than `region` within `radius` (at most a cell), or null.
+  const Vector3d* other(std::size_t region, const Vector3d& place, double radius) const {
+    const Vector3i home = at(place);
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const auto found = cells_.find(key(home + Vector3i(dx, dy, dz)));
+          if (found == cells_.end()) continue;
+          for (const Entry& entry : found->second) {
+            const Vector3d& position = regions_[entry.region].position[entry.cell];
+            if (entry.region != region && (position - place).norm() < radius) return &position;
+          }
+        }
+      }
+    }
+    return nullptr;
+  }
+
+ private:
+  struct Entry {
+    std::size_t region, cell;
+  };
+  Vector3i at(const Vector3d& place) const { return ((place - origin_) / cell_).array().floor().matrix().cast<int>(); }
+  static std::int64_t key(const Vector3i& c) { return (static_cast<std::int64_t>(c.x()) * 2097152 + c.y()) * 2097152 + c.z(); }
+
+  const std::vector<FilledRegion>& regions_;
+  double cell_;
+  Vector3d origin_;
+  std::unordered_map<std::int64_t, std::vector<Entry>> cells_;
+};
+
+bool is_filled(const FilledRegion& region, const int cell[3]) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cell[axis] < 0 || cell[axis] >= region.count[axis]) return false;
+  }
+  return region.filled[region.index(cell[0], cell[1], cell[2])];
+}
+
+WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int axis, int way) {
+  WallElement element;
+  element.normal = way * Vector3d::Unit(axis);
+  element.tangent = axis == 0 ? Vector3d::UnitZ() : Vector3d::UnitX();
+  element.centre = centre + 0.5 * region.step[axis] * element.normal;
+  element.area = region.volume / region.step[axis];
+  return element;
+}
+
+}  // namespace
+
+void check_overlap(const std::vector<FilledRegion>& regions, double spacing) {
+  if (regions.size() < 2) return;
+  const ParticleFinder finder(regions, spacing);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    for (std::size_t c = 0; c < regions[r].filled.size(); ++c) {
+      if (!regions[r].filled[c]) continue;
+      if (const Vector3d* other = finder.other(r, regions[r].position[c], 0.5 * spacing)) {
+        throw Error(regions[r].key + " overlaps another region of fluid/fill near " + describe(*other) +
+                    " m; each place may be filled once");
+      }
+    }
+  }
+}
+
+std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std::vector<FilledRegion>& regions) {
+  std::vector<WallElement> lid;
+  const ParticleFinder finder(regions, spacing);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const FilledRegion& region = regions[r];
+    for (int k = 0; k < region.count[2]; ++k) {
+      for (int j = 0; j < region.count[1]; ++j) {
+        for (int i = 0; i < region.count[0]; ++i) {
+          const int cell[3] = {i, j, k};
+          if (!is_filled(region, cell)) continue;
+          for (int side = 0; side < 6; ++side) {
+            const int axis = side / 2, way = side % 2 ? 1 : -1;
+            if (region.step[axis] == 0) continue;
+            int neighbour[3] = {i, j, k};
+            neighbour[axis] += way;
+            if (is_filled(region, neighbour)) continue;
+            const Vector3d from = region.centre(i, j, k);
+            const Vector3d to = region.centre(neighbour[0], neighbour[1], neighbour[2]);
+            // A little farther than the next centre: a cell that stays empty because it touches a wall needs no lid before that wall.
+            if (basin.grid->crosses(from, from + 1.06 * (to - from)) || finder.other(r, to, 0.75 * spacing)) continue;
+            lid.push_back(lid_element(region, from, axis, way));
+          }
+        }
+      }
+    }
+  }
+  return lid;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,171 @@
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <unordered_map>
+
+#include "mesh_topology.h"
+#include "polygon.h"
+#include "wavetank/common/error.h"
+#include "wavetank/geometry/mesh.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double merge_tolerance = 1e-6;  // of the mesh's size: above the resolution of the float32 coordinates of mesh files
+
+std::string percent_decoded(const std::string& text) {
+  std::string plain;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '%' && k + 2 < text.size() && std::isxdigit(text[k + 1]) && std::isxdigit(text[k + 2])) {
+      plain += static_cast<char>(std::strtol(text.substr(k + 1, 2).c_str(), nullptr, 16));
+      k += 2;
+    } else {
+      plain += text[k];
+    }
+  }
+  return plain;
+}
+
+std::string path_of(const std::string& uri, const std::string& case_directory, const ResourceResolver& resolve) {
+  const std::string file_scheme = "file://";
+  if (uri.empty()) throw Error("a mesh has an empty path; give package://, file://, an absolute path or one relative to the case file");
+  if (uri.compare(0, file_scheme.size(), file_scheme) == 0) return percent_decoded(uri.substr(file_scheme.size()));
+  if (uri.find("://") != std::string::npos) {
+    if (!resolve) throw Error("mesh '" + uri + "' cannot be found: nothing here resolves such addresses; give a file path");
+    const std::string path = resolve(uri);
+    if (path.compare(0, file_scheme.size(), file_scheme) == 0) return percent_decoded(path.substr(file_scheme.size()));
+    return path;
+  }
+  const std::filesystem::path path(uri);
+  if (path.is_absolute()) return uri;
+  if (case_directory.empty()) {
+    throw Error("mesh '" + uri +
+                "' is a relative path, which needs a case file that it is relative to; give package://, file:// or an absolute path");
+  }
+  return (std::filesystem::path(case_directory) / path).string();
+}
+
+void check_file(const std::string& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) throw Error("mesh file '" + path + "' does not exist");
+  if (!std::filesystem::is_regular_file(path, failure)) throw Error("mesh file '" + path + "' is not a regular file");
+  if (std::filesystem::file_size(path, failure) == 0 && !failure) throw Error("mesh file '" + path + "' is empty");
+}
+
+Eigen::Matrix4d to_eigen(const aiMatrix4x4& m) {
+  Eigen::Matrix4d result;
+  result << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+  return result;
+}
+
+void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, const std::string& path, TriangleMesh& mesh) {
+  const Eigen::Matrix4d transform = parent * to_eigen(node.mTransformation);
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D& p = part.mVertices[v];
+      const Vector3d vertex = (transform * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>();
+      if (!vertex.allFinite()) {
+        throw Error("mesh file '" + path + "': vertex " + std::to_string(first + static_cast<int>(v)) +
+                    " is not a finite number: " + describe(vertex));
+      }
+      mesh.vertices.push_back(vertex);
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines bound nothing
+      Vector3i triangle;
+      for (int k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= part.mNumVertices) {
+          throw Error("mesh file '" + path + "' is corrupt: face " + std::to_string(f) + " names a vertex that does not exist");
+        }
+        triangle[k] = first + static_cast<int>(face.mIndices[k]);
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  }
+  for (unsigned child = 0; child < node.mNumChildren; ++child) add_node(scene, *node.mChildren[child], transform, path, mesh);
+}
+
+/// One vertex for all that lie within the tolerance of it; unused vertices go.
+void merge_vertices(TriangleMesh& mesh, double tolerance) {
+  const Vector3d origin = mesh.bounding_box().min;
+  const double cell = 4.0 * tolerance;
+  const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) { return x * 73856093LL ^ y * 19349663LL ^ z * 83492791LL; };
+  std::unordered_multimap<std::int64_t, int> buckets;
+  buckets.reserve(mesh.triangles.size());
+  std::vector<Vector3d> kept;
+  std::vector<int> index(mesh.vertices.size(), -1);
+  const auto merged = [&](const Vector3d& vertex) {
+    const Vector3d low = (vertex - origin).array() - tolerance, high = (vertex - origin).array() + tolerance;
+    for (auto x = std::llround(std::floor(low.x() / cell)); x <= std::floor(high.x() / cell); ++x) {
+      for (auto y = std::llround(std::floor(low.y() / cell)); y <= std::floor(high.y() / cell); ++y) {
+        for (auto z = std::llround(std::floor(low.z() / cell)); z <= std::floor(high.z() / cell); ++z) {
+          const auto range = buckets.equal_range(key(x, y, z));
+          for (auto it = range.first; it != range.second; ++it) {
+            if ((kept[it->second] - vertex).norm() <= tolerance) return it->second;
+          }
+        }
+      }
+    }
+    const Vector3d home = (vertex - origin) / cell;
+    kept.push_back(vertex);
+    const int result = static_cast<int>(kept.size()) - 1;
+    buckets.emplace(key(std::llround(std::floor(home.x())), std::llround(std::floor(home.y())), std::llround(std::floor(home.z()))),
+                    result);
+    return result;
+  };
+  for (Vector3i& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      int& target = index[triangle[k]];
+      if (target < 0) target = merged(mesh.vertices[triangle[k]]);
+      triangle[k] = target;
+    }
+  }
+  mesh.vertices = std::move(kept);
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve) {
+  const std::string path = path_of(source.uri, case_directory, resolve);
+  check_file(path);
+
+  Assimp::Importer importer;
+  // Collada: the file's axes stay as they are written, as in rviz; its unit is applied, so that coordinates are metres.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
+
+  TriangleMesh mesh;
+  mesh.name = std::filesystem::path(path).filename().string();
+  add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), path, mesh);
+  if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has no triangles");
+
+  const Box box = mesh.bounding_box();
+  merge_vertices(mesh, std::max(merge_tolerance * (box.max - box.min).norm(), 1e-30));
+  remove_degenerate_triangles(mesh);
+  remove_duplicate_triangles(mesh);
+  if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has only triangles of zero area");
+
+  const Eigen::Matrix3d rotation =
+      (Eigen::AngleAxisd(source.rotation.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(source.rotation.y(), Vector3d::UnitY()) *
+       Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX()))
+          .toRotationMatrix();
+  for (Vector3d& vertex : mesh.vertices) {
+    vertex = rotation * (source.scale * vertex) + source.translation;
+    if (!vertex.allFinite())
+      throw Error("mesh file '" + path + "': its scale, rotation or translation makes vertices that are not finite numbers");
+  }
+  return mesh;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,87 @@
+#include "polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace wavetank {
+
+Vector3d vector_area(const Polygon& polygon) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t k = 2; k < polygon.size(); ++k) sum += (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]);
+  return 0.5 * sum;
+}
+
+Vector3d centroid(const Polygon& polygon) {
+  const Vector3d direction = vector_area(polygon).normalized();
+  double area = 0;
+  Vector3d moment = Vector3d::Zero(), mean = Vector3d::Zero();
+  for (std::size_t k = 0; k < polygon.size(); ++k) mean += (polygon[k] - polygon[0]) / static_cast<double>(polygon.size());
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const Vector3d p = polygon[k - 1] - polygon[0], q = polygon[k] - polygon[0];
+    const double part = 0.5 * direction.dot(p.cross(q));
+    area += part;
+    moment += part / 3.0 * (p + q);
+  }
+  return polygon[0] + (area > 0 ? Vector3d(moment / area) : mean);
+}
+
+Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset, double tolerance) {
+  const std::size_t count = polygon.size();
+  std::vector<double> height(count);
+  bool any_below = false, any_above = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    height[k] = normal.dot(polygon[k]) - offset;
+    if (std::abs(height[k]) <= tolerance) height[k] = 0;
+    any_below = any_below || height[k] < 0;
+    any_above = any_above || height[k] > 0;
+  }
+  if (!any_below) return {};
+  if (!any_above) return polygon;
+  Polygon part;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t next = (k + 1) % count;
+    if (height[k] <= 0) part.push_back(polygon[k]);
+    if (height[k] * height[next] < 0) part.push_back(polygon[k] + height[k] / (height[k] - height[next]) * (polygon[next] - polygon[k]));
+  }
+  return part;
+}
+
+Vector3d nearest_on_triangle(const Vector3d& point, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d normal = (b - a).cross(c - a);
+  const Vector3d* corner[3] = {&a, &b, &c};
+  bool over_face = normal.squaredNorm() > 0;
+  for (int k = 0; k < 3 && over_face; ++k) {
+    const Vector3d edge = *corner[(k + 1) % 3] - *corner[k];
+    over_face = normal.dot(edge.cross(point - *corner[k])) >= 0;
+  }
+  if (over_face) return point - normal.dot(point - a) / normal.squaredNorm() * normal;
+  Vector3d best = a;
+  double least = (point - a).squaredNorm();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d edge = *corner[(k + 1) % 3] - *corner[k];
+    const double length2 = edge.squaredNorm();
+    const double t = length2 > 0 ? std::clamp(edge.dot(point - *corner[k]) / length2, 0.0, 1.0) : 0.0;
+    const Vector3d foot = *corner[k] + t * edge;
+    const double distance2 = (point - foot).squaredNorm();
+    if (distance2 < least) {
+      least = distance2;
+      best = foot;
+    }
+  }
+  return best;
+}
+
+std::string describe(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+std::string describe(const Vector3d& point) {
+  return "(" + describe(point.x()) + ", " + describe(point.y()) + ", " + describe(point.z()) + ")";
+}
+
+int cells_in(double length, double cell) { return std::max(1, static_cast<int>(std::floor(length / cell + 0.5 + 1e-6))); }
+
+}  // namespace wavetank

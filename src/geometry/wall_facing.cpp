@@ -1,0 +1,226 @@
+#include "wall_facing.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace wavetank {
+namespace {
+
+constexpr double lift = 0.01;           // of the spacing: how far in front of a patch one looks about
+constexpr std::size_t most_cuts = 24;   // lines that split one patch
+constexpr double small_element = 0.35;  // of the spacing squared: smaller elements of curved walls are joined
+constexpr double joined_cosine = 0.94;  // elements that face within 20° of each other may be
+
+/// An element in the making.
+struct Facing {
+  Vector3d moment = Vector3d::Zero();  ///< Σ area × centre
+  Vector3d flux = Vector3d::Zero();    ///< Σ area × normal, out of the fluid
+  double area = 0;
+
+  void add(const Polygon& piece, const Vector3d& normal_out, double factor) {
+    const double part = factor * vector_area(piece).norm();
+    moment += part * centroid(piece);
+    flux += part * normal_out;
+    area += part;
+  }
+};
+
+class Facer {
+ public:
+  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing) : open_(open), grid_(grid), spacing_(spacing) {}
+
+  /// The part of the patch that fluid on the side of its pieces' normals (times `sign`) wets.
+  Facing face(const WallPatch& patch, double sign) const {
+    Facing result;
+    for (const Polygon& piece : patch.pieces) {
+      const Vector3d area = vector_area(piece);
+      if (area.norm() <= 0) continue;
+      const Vector3d to_fluid = sign * area.normalized();
+      const std::vector<Vector3d> cuts = cutting_planes(piece, to_fluid);
+      if (cuts.empty()) {
+        if (wetted(piece, to_fluid)) result.add(piece, -to_fluid, patch.area_factor);
+        continue;
+      }
+      std::vector<Polygon> wet;
+      const std::vector<Polygon> parts = split(piece, cuts);
+      for (const Polygon& part : parts) {
+        if (wetted(part, to_fluid)) wet.push_back(part);
+      }
+      if (wet.size() == parts.size()) wet.assign(1, piece);
+      for (const Polygon& part : wet) result.add(part, -to_fluid, patch.area_factor);
+    }
+    return result;
+  }
+
+ private:
+  bool wetted(const Polygon& piece, const Vector3d& to_fluid) const {
+    const Vector3d centre = centroid(piece), from = centre + lift * spacing_ * to_fluid;
+    for (const double ahead : {0.6, 1.0, 0.3}) {
+      if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return true;
+    }
+    return false;
+  }
+
+  /// Lines in which other walls cross the plane just in front of the piece; each as two vectors: a point, and the normal of the plane
+  /// through the line that stands upright on the piece.
+  std::vector<Vector3d> cutting_planes(const Polygon& piece, const Vector3d& to_fluid) const {
+    Box bounds{piece[0], piece[0]};
+    for (const Vector3d& p : piece) {
+      bounds.min = bounds.min.cwiseMin(p);
+      bounds.max = bounds.max.cwiseMax(p);
+    }
+    const Vector3d margin = Vector3d::Constant(2 * lift * spacing_);
+    bounds.min -= margin;
+    bounds.max += margin;
+    const double level = to_fluid.dot(piece[0]) + lift * spacing_;
+    std::vector<std::pair<double, std::pair<Vector3d, Vector3d>>> found;  // length inside the piece, line
+    for (const int t : grid_.overlapping(bounds)) {
+      Vector3d from, to;
+      if (!section(grid_.triangles()[t], to_fluid, level, from, to)) continue;
+      const Vector3d across = to_fluid.cross(to - from).normalized();
+      const double inside = length_inside(piece, to_fluid, from, to);
+      if (inside > 1e-6 * spacing_) found.push_back({inside, {from, across}});
+    }
+    if (found.size() > most_cuts) {
+      std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+      found.resize(most_cuts);
+    }
+    std::vector<Vector3d> planes;
+    for (const auto& [length, line] : found) {
+      planes.push_back(line.first);
+      planes.push_back(line.second);
+    }
+    return planes;
+  }
+
+  /// The segment in which a triangle crosses the plane normal · x = level.
+  static bool section(const WallTriangle& t, const Vector3d& normal, double level, Vector3d& from, Vector3d& to) {
+    const Vector3d* corner[3] = {&t.a, &t.b, &t.c};
+    double height[3];
+    for (int k = 0; k < 3; ++k) height[k] = normal.dot(*corner[k]) - level;
+    Vector3d point[3];
+    int found = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      if ((height[k] < 0) == (height[next] < 0)) continue;
+      point[found++] = *corner[k] + height[k] / (height[k] - height[next]) * (*corner[next] - *corner[k]);
+    }
+    if (found != 2) return false;
+    from = point[0];
+    to = point[1];
+    return (to - from).norm() > 0;
+  }
+
+  /// How much of a segment lies strictly inside the piece when seen along its normal.
+  double length_inside(const Polygon& piece, const Vector3d& normal, const Vector3d& from, const Vector3d& to) const {
+    double enter = 0, leave = 1;
+    const double turn = vector_area(piece).dot(normal) > 0 ? 1 : -1;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const Vector3d edge = piece[(k + 1) % piece.size()] - piece[k];
+      if (edge.norm() == 0) continue;
+      const Vector3d inwards = turn * normal.cross(edge).normalized();
+      const double margin = 1e-4 * spacing_;  // a wall along the piece's edge does not cut it
+      const double first = inwards.dot(from - piece[k]) - margin, last = inwards.dot(to - piece[k]) - margin;
+      if (first <= 0 && last <= 0) return 0;
+      if (first < 0) enter = std::max(enter, first / (first - last));
+      if (last < 0) leave = std::min(leave, first / (first - last));
+    }
+    return std::max(0.0, leave - enter) * (to - from).norm();
+  }
+
+  std::vector<Polygon> split(const Polygon& piece, const std::vector<Vector3d>& cuts) const {
+    std::vector<Polygon> parts = {piece};
+    for (std::size_t c = 0; c < cuts.size(); c += 2) {
+      const Vector3d& normal = cuts[c + 1];
+      const double offset = normal.dot(cuts[c]);
+      std::vector<Polygon> next;
+      for (const Polygon& part : parts) {
+        for (const double side : {1.0, -1.0}) {
+          Polygon half = part_below(part, side * normal, side * offset, 1e-6 * spacing_);
+          if (half.size() > 2) next.push_back(std::move(half));
+        }
+      }
+      parts = std::move(next);
+    }
+    return parts;
+  }
+
+  const OpenSpace& open_;
+  const TriangleGrid& grid_;
+  double spacing_;
+};
+
+struct Unfinished {
+  Facing facing;
+  Vector3d tangent;
+  bool joinable = false;
+};
+
+/// Joins small elements of curved walls that lie in one cell of the spacing and face the same way, so that a finely triangulated hull does
+/// not get an element a triangle. Area vectors are added: the flux through a closed surface stays zero.
+void join_small(std::vector<Unfinished>& elements, double spacing, const Vector3d& origin) {
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells;
+  std::vector<Unfinished> result;
+  for (const Unfinished& element : elements) {
+    if (!element.joinable) {
+      result.push_back(element);
+      continue;
+    }
+    const Eigen::Array3d cell = ((element.facing.moment / element.facing.area - origin) / spacing).array() + 1e-6;
+    const auto at = [&cell](int axis) { return static_cast<std::int64_t>(std::floor(cell[axis])); };
+    std::vector<std::size_t>& here = cells[(at(0) * 2097152 + at(1)) * 2097152 + at(2)];
+    const auto fits = [&](std::size_t other) {
+      const Facing& joined = result[other].facing;
+      return joined.area + element.facing.area <= 1.2 * spacing * spacing &&
+             joined.flux.normalized().dot(element.facing.flux.normalized()) > joined_cosine;
+    };
+    const auto found = std::find_if(here.begin(), here.end(), fits);
+    if (found == here.end()) {
+      here.push_back(result.size());
+      result.push_back(element);
+    } else {
+      Facing& joined = result[*found].facing;
+      joined.moment += element.facing.moment;
+      joined.flux += element.facing.flux;
+      joined.area += element.facing.area;
+    }
+  }
+  elements = std::move(result);
+}
+
+}  // namespace
+
+std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
+                                    double spacing) {
+  const Facer facer(open, grid, spacing);
+  std::vector<Unfinished> elements;
+  Vector3d origin = Vector3d::Zero();
+  if (!patches.empty()) origin = patches.front().pieces.front().front();
+  for (const WallPatch& patch : patches) {
+    for (const double sign : {1.0, -1.0}) {
+      const Facing facing = facer.face(patch, sign);
+      if (facing.area > 1e-9 * spacing * spacing) {
+        elements.push_back({facing, patch.tangent, patch.curved && facing.area < small_element * spacing * spacing});
+      }
+    }
+    for (const Polygon& piece : patch.pieces) origin = origin.cwiseMin(piece.front());
+  }
+  join_small(elements, spacing, origin);
+
+  std::vector<WallElement> walls;
+  walls.reserve(elements.size());
+  for (const Unfinished& element : elements) {
+    WallElement wall;
+    wall.centre = element.facing.moment / element.facing.area;
+    wall.area = element.facing.flux.norm();
+    wall.normal = element.facing.flux / wall.area;
+    wall.tangent = (element.tangent - wall.normal.dot(element.tangent) * wall.normal).normalized();
+    wall.owner = owner;
+    walls.push_back(wall);
+  }
+  return walls;
+}
+
+}  // namespace wavetank

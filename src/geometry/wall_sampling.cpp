@@ -1,0 +1,193 @@
+#include "wall_sampling.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "planar_regions.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double sliver = 0.1;        // of a cell: smaller clipped pieces join a neighbouring cell
+constexpr double straight = 1e-6;     // rad
+constexpr double curved_turn = 0.35;  // rad: lines that turn less at a corner are curved there
+
+/// The grid that is laid over a flat region.
+struct CellGrid {
+  Eigen::Vector2d min, side;
+  int count[2];
+};
+
+CellGrid lay_grid(const PlanarRegion& region, double spacing) {
+  const Eigen::Vector2d size = region.max - region.min;
+  // Across a strip narrower than the spacing the cells are shortened as well, to stay nearly square; but not on facets of a curved wall,
+  // which are joined.
+  const double shortest = std::min(size.x(), size.y());
+  const double cell = region.curved ? spacing : std::min(spacing, std::max(shortest, 0.25 * spacing));
+  CellGrid grid;
+  grid.min = region.min;
+  for (int axis = 0; axis < 2; ++axis) {
+    grid.count[axis] = cells_in(size[axis], cell);
+    grid.side[axis] = size[axis] / grid.count[axis];
+  }
+  return grid;
+}
+
+Vector3d in_space(const PlanarRegion& region, const Eigen::Vector2d& p) {
+  return region.origin + p.x() * region.along + p.y() * region.across;
+}
+
+void add_rectangle(const PlanarRegion& region, double spacing, std::vector<WallPatch>& patches) {
+  const CellGrid grid = lay_grid(region, spacing);
+  const Eigen::Vector2d size = region.max - region.min;
+  const auto corner = [&](int i, int j) {
+    return in_space(region, {grid.min.x() + size.x() * i / grid.count[0], grid.min.y() + size.y() * j / grid.count[1]});
+  };
+  for (int j = 0; j < grid.count[1]; ++j) {
+    for (int i = 0; i < grid.count[0]; ++i) {
+      patches.push_back({{{corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}},
+                         region.along,
+                         region.area / (size.x() * size.y()),
+                         region.curved});
+    }
+  }
+}
+
+double area_of(const std::vector<Polygon>& pieces) {
+  double area = 0;
+  for (const Polygon& piece : pieces) area += vector_area(piece).norm();
+  return area;
+}
+
+/// Pieces of the region's triangles by grid cell.
+std::map<int, std::vector<Polygon>> clip_to_cells(const PlanarRegion& region, const CellGrid& grid) {
+  std::map<int, std::vector<Polygon>> cells;
+  const double tolerance = 1e-9 * grid.side.maxCoeff();
+  for (const FlatTriangle& t : region.triangles) {
+    const auto range = [&](int axis, int& low, int& high) {
+      const double least = std::min({t[0][axis], t[1][axis], t[2][axis]}), most = std::max({t[0][axis], t[1][axis], t[2][axis]});
+      low = std::clamp(static_cast<int>(std::floor((least - grid.min[axis]) / grid.side[axis] + 1e-9)), 0, grid.count[axis] - 1);
+      high = std::clamp(static_cast<int>(std::floor((most - grid.min[axis]) / grid.side[axis] - 1e-9)), low, grid.count[axis] - 1);
+    };
+    int low[2], high[2];
+    range(1, low[1], high[1]);
+    Polygon rest;
+    for (const Eigen::Vector2d& p : t) rest.emplace_back(p.x(), p.y(), 0.0);
+    // Rows are cut off one after the other, and cells off each row: what is left over never gets lost at the last cut.
+    for (int j = low[1]; j <= high[1] && !rest.empty(); ++j) {
+      const double top = grid.min.y() + (j + 1) * grid.side.y();
+      Polygon row = j == high[1] ? rest : part_below(rest, Vector3d::UnitY(), top, tolerance);
+      rest = j == high[1] ? Polygon() : part_below(rest, -Vector3d::UnitY(), -top, tolerance);
+      range(0, low[0], high[0]);
+      for (int i = low[0]; i <= high[0] && !row.empty(); ++i) {
+        const double right = grid.min.x() + (i + 1) * grid.side.x();
+        const Polygon piece = i == high[0] ? row : part_below(row, Vector3d::UnitX(), right, tolerance);
+        row = i == high[0] ? Polygon() : part_below(row, -Vector3d::UnitX(), -right, tolerance);
+        if (piece.size() < 3) continue;
+        Polygon placed;
+        for (const Vector3d& p : piece) placed.push_back(in_space(region, {p.x(), p.y()}));
+        cells[j * grid.count[0] + i].push_back(placed);
+      }
+    }
+  }
+  return cells;
+}
+
+/// Cells of which little is left join the fullest of their four neighbours.
+void join_slivers(std::map<int, std::vector<Polygon>>& cells, const CellGrid& grid) {
+  std::map<int, double> area;
+  for (const auto& [cell, pieces] : cells) area[cell] = area_of(pieces);
+  const double least = sliver * grid.side.x() * grid.side.y();
+  for (const auto& [cell, own] : area) {
+    if (own >= least) continue;
+    const int i = cell % grid.count[0], j = cell / grid.count[0];
+    int best = -1;
+    const auto consider = [&](bool exists, int other) {
+      if (exists && area.count(other) && area[other] >= least && (best < 0 || area[other] > area[best])) best = other;
+    };
+    consider(i > 0, cell - 1);
+    consider(i + 1 < grid.count[0], cell + 1);
+    consider(j > 0, cell - grid.count[0]);
+    consider(j + 1 < grid.count[1], cell + grid.count[0]);
+    if (best < 0) continue;
+    std::vector<Polygon>& target = cells[best];
+    target.insert(target.end(), cells[cell].begin(), cells[cell].end());
+    cells.erase(cell);
+  }
+}
+
+void add_clipped(const PlanarRegion& region, double spacing, std::vector<WallPatch>& patches) {
+  CellGrid grid = lay_grid(region, spacing);
+  const Eigen::Vector2d size = region.max - region.min;
+  if (region.area <= spacing * spacing && size.maxCoeff() <= 2 * spacing) {  // a facet smaller than a cell stays whole
+    grid.count[0] = grid.count[1] = 1;
+    grid.side = size;
+  }
+  std::map<int, std::vector<Polygon>> cells = clip_to_cells(region, grid);
+  join_slivers(cells, grid);
+  double sampled = 0;
+  for (const auto& [cell, pieces] : cells) sampled += area_of(pieces);
+  for (auto& [cell, pieces] : cells) patches.push_back({std::move(pieces), region.along, region.area / sampled, region.curved});
+}
+
+double turn(const Vector3d& before, const Vector3d& after) {
+  return std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0));
+}
+
+/// The line without its points that lie within straight runs.
+Polyline without_straight_points(const Polyline& line) {
+  const int count = static_cast<int>(line.points.size());
+  Polyline result;
+  result.closed = line.closed;
+  for (int k = 0; k < count; ++k) {
+    const bool end = !line.closed && (k == 0 || k == count - 1);
+    const Vector3d& here = line.points[k];
+    const Vector3d before = here - line.points[(k + count - 1) % count], after = line.points[(k + 1) % count] - here;
+    // the sine, not acos of a cosine near one, resolves small turns
+    if (end || before.dot(after) <= 0 || before.cross(after).norm() > straight * before.norm() * after.norm())
+      result.points.push_back(here);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing) {
+  std::vector<WallPatch> patches;
+  for (const PlanarRegion& region : planar_regions(mesh)) {
+    if (region.is_rectangle()) {
+      add_rectangle(region, spacing, patches);
+    } else {
+      add_clipped(region, spacing, patches);
+    }
+  }
+  return patches;
+}
+
+std::vector<WallPatch> sample_outline(const Outline& outline, double spacing) {
+  const Vector3d half(0, 0.5 * spacing, 0);
+  std::vector<WallPatch> patches;
+  for (const Polyline& given : outline) {
+    const Polyline line = without_straight_points(given);
+    const int count = static_cast<int>(line.points.size()), sides = line.closed ? count : count - 1;
+    const auto side = [&](int k) { return Vector3d(line.points[(k + 1) % count] - line.points[k % count]); };
+    const auto curved_at = [&](int k) {  // at the corner between side k − 1 and side k
+      if (!line.closed && (k == 0 || k == sides)) return false;
+      return turn(side((k + count - 1) % count), side(k % count)) < curved_turn;
+    };
+    for (int k = 0; k < sides; ++k) {
+      const Vector3d from = line.points[k], way = side(k);
+      const bool curved = curved_at(k) || curved_at(k + 1);
+      const int cells = cells_in(way.norm(), spacing);
+      for (int i = 0; i < cells; ++i) {
+        const Vector3d a = from + way * i / cells, b = from + way * (i + 1) / cells;
+        patches.push_back({{{a - half, b - half, b + half, a + half}}, way.normalized(), 1.0, curved});
+      }
+    }
+  }
+  return patches;
+}
+
+}  // namespace wavetank
