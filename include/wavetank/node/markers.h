@@ -1,0 +1,17 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "wavetank/geometry/layout.h"
+
+namespace wavetank {
+
+/// The case as rviz draws it, in the world frame: the tank as glass with its edges, bodies solid, pressure probes as named spheres, wave
+/// gauges as named vertical lines. Begins by deleting what an earlier run drew. Stamps are 0 (draw at the latest transform); sizes follow
+/// the tank's. A mesh given as package:// of a format that rviz reads stays a mesh resource; everything else is sent as triangles.
+visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layout);
+
+/// Ends of the edges that show a mesh's shape, two points an edge: open ones and those where it bends by more than `angle` (rad).
+std::vector<Vector3d> feature_edges(const TriangleMesh& mesh, double angle);
+
+}  // namespace wavetank

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <std_msgs/String.h>
+#include <wavetank/ProbeArray.h>
+#include <wavetank/SolverStatus.h>
+#include <wavetank/WaveGaugeArray.h>
+
+#include <string>
+#include <vector>
+
+#include "wavetank/geometry/layout.h"
+#include "wavetank/instruments/samples.h"
+#include "wavetank/node/names.h"
+#include "wavetank/node/stamps.h"
+#include "wavetank/simulation/simulation.h"
+
+namespace wavetank {
+
+/// Turns the instruments' samples into messages, for a live node and for a bag alike. Free of the ROS graph.
+class SampleMessages {
+ public:
+  /// Of what part of the fluid's action on a body a wrench message tells.
+  enum class Part { total, pressure, viscous };
+
+  /// Throws Error if two instruments or bodies would share a topic.
+  SampleMessages(const Case& checked, const Layout& layout);
+
+  ProbeArray probes(const PressureSample& sample, const StampClock& clock) const;
+  /// Of one probe, in its own frame, with the case's reference pressure added. Pa.
+  sensor_msgs::FluidPressure probe(std::size_t index, const PressureSample& sample, const StampClock& clock) const;
+  WaveGaugeArray gauges(const LevelSample& sample, const StampClock& clock) const;
+  /// On body `index` (0 the tank), in axes parallel to the world's: about a body's centre of volume, its frame's origin; for the tank about
+  /// the origin of the case's coordinates.
+  geometry_msgs::WrenchStamped wrench(std::size_t index, Part part, const WrenchSample& sample, const StampClock& clock) const;
+
+  /// Calls sink(topic, message) for every message of the samples, each exactly once and in order of time on its topic.
+  template <class Sink>
+  void emit(const Samples& samples, const StampClock& clock, Sink&& sink) const {
+    for (const PressureSample& sample : samples.pressures) {
+      sink(probes_topic, probes(sample, clock));
+      for (std::size_t i = 0; i < probe_topics_.size(); ++i) sink(probe_topics_[i], probe(i, sample, clock));
+    }
+    for (const LevelSample& sample : samples.levels) sink(gauges_topic, gauges(sample, clock));
+    for (const WrenchSample& sample : samples.wrenches) {
+      for (std::size_t i = 0; i < sample.wrenches.size(); ++i) {
+        sink(wrench_topics_[i], wrench(i, Part::total, sample, clock));
+        sink(wrench_topics_[i] + "/pressure", wrench(i, Part::pressure, sample, clock));
+        sink(wrench_topics_[i] + "/viscous", wrench(i, Part::viscous, sample, clock));
+      }
+    }
+  }
+
+  static inline const std::string probes_topic = "probes";
+  static inline const std::string gauges_topic = "gauges";
+
+ private:
+  PublishingCase publishing_;
+  ProbeArray probes_;      ///< names and positions filled in
+  WaveGaugeArray gauges_;  ///< likewise
+  std::vector<std::string> probe_topics_, probe_frames_;
+  std::vector<std::string> wrench_topics_, wrench_frames_;
+};
+
+/// Where a body's wrench is reduced and its frame lies: the centre of volume of a closed mesh, else the middle of its bounding box. m.
+Vector3d centre_of_volume(const TriangleMesh& mesh);
+
+/// world → every probe and every body, none of which moves; with stamp 0, as static transforms have.
+std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout);
+
+/// What is known of a run besides the solver's own state.
+struct RunState {
+  std::uint8_t phase = SolverStatus::STARTING;
+  bool paused = false;
+  double start_progress = 0;  ///< 0…1
+  double real_time_factor = 0;
+  double steps_per_second = 0;
+  std::string device;
+  std::string failure;
+};
+
+SolverStatus status_message(const Case& checked, const SolverState& solver, const EnergySample& energies, const RunState& run,
+                            const StampClock& clock);
+
+/// What a bag needs to be understood and its run to be repeated: version and device as comments, then the whole case as YAML.
+std_msgs::String case_message(const Case& checked, const std::string& device);
+
+}  // namespace wavetank

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "wavetank/scene/case.h"
+
+/// Names of topics and tf frames, the same in a live node and in a bag. Topics are relative to the node's private namespace.
+namespace wavetank {
+
+/// A name of the case as one level of a topic or frame: what ROS does not allow there becomes an underscore.
+std::string graph_name(const std::string& name);
+
+std::string probe_topic(const std::string& probe);                                    ///< "probes/P1"
+std::string body_topic(const std::string& body);                                      ///< "bodies/box/wrench"
+std::string probe_frame(const PublishingCase& publishing, const std::string& probe);  ///< "tank/probes/P1"
+std::string body_frame(const PublishingCase& publishing, const std::string& body);    ///< "tank/bodies/box"
+
+/// The tank's own name among the bodies.
+inline const std::string tank_name = "tank";
+
+/// Throws Error if two probes, or two bodies (the tank is one), would have the same topic.
+void check_names(const Case& checked);
+
+}  // namespace wavetank

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavetank/scene/case_reader.h"
+
+namespace wavetank {
+
+/// What wavetank_run was asked for.
+struct RunOptions {
+  enum class Action { run, check, list_devices, nothing };
+  Action action = Action::run;
+  std::string case_file;
+  std::vector<Override> overrides;  ///< of --set, --duration and --device, in this order
+  std::string bag;                  ///< empty = none
+  bool clouds = false;
+  std::string restore;  ///< empty = start at time 0
+  std::string save;     ///< empty = no snapshot at the end
+  bool profile = false;
+  bool quiet = false;
+};
+
+/// Reads the command line. Help and version are printed here, and leave Action::nothing. Throws Error for an unknown or incomplete option.
+RunOptions read_command_line(int argc, char** argv);
+
+}  // namespace wavetank

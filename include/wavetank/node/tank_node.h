@@ -1,0 +1,85 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "wavetank/node/bag_writer.h"
+#include "wavetank/node/cloud_publisher.h"
+#include "wavetank/node/messages.h"
+#include "wavetank/node/parameters.h"
+#include "wavetank/node/solver_loop.h"
+
+namespace wavetank {
+
+/// The live node: a case's simulation with its topics, services, transforms and diagnostics (docs/topics.md).
+/// Callbacks may come from several threads; messages of samples are published by the solver's thread, in order.
+class TankNode {
+ public:
+  /// Throws Error if the bag cannot be made or two instruments share a topic. The simulation starts in its own thread meanwhile.
+  TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup);
+  ~TankNode();
+
+  /// Whether the process should end: some seconds after a failure, or at the end of the duration if so asked.
+  bool wants_to_exit() const { return wants_to_exit_; }
+  /// Of the process: 0, or 3 after a failure of the simulation.
+  int exit_code() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void advertise_topics();
+  void advertise_services();
+  LoopHooks make_hooks();
+  void started(const Simulation& simulation);
+  void stepped(const Simulation& simulation, const Samples& samples);
+  void idle(const Simulation& simulation);
+  void ended(const LoopStatus& status);
+  template <class Message>
+  void publish_sample(const std::string& topic, const Message& message);
+  void publish_clock(double time);
+  void write_cloud(const Simulation& simulation, double time);
+  bool everything_is_heard();
+  std::string snapshot_path(const std::string& what) const;
+  void every_second();
+  void measure_rates(const LoopStatus& status);
+  void fill_diagnostics(diagnostic_updater::DiagnosticStatusWrapper& report);
+  SolverStatus make_status(const LoopStatus& status) const;
+  void decide_about_exit(const LoopStatus& status);
+
+  ros::NodeHandle handle_, private_;
+  NodeSetup setup_;
+  Case case_;
+  StampClock clock_;
+  std::unique_ptr<SampleMessages> messages_;  ///< of the solver's thread, once started
+  std::map<std::string, ros::Publisher> sample_publishers_;
+  ros::Publisher markers_, case_publisher_, status_, ros_clock_;
+  tf2_ros::StaticTransformBroadcaster transforms_;
+  std::vector<ros::ServiceServer> services_;
+  std::unique_ptr<BagWriter> bag_;
+  double next_bag_cloud_ = 0;   ///< s of simulated time
+  double next_bag_status_ = 0;  ///< likewise
+  Clock::time_point clock_due_;
+  Clock::time_point subscribers_due_;  ///< when the first step is taken at the latest
+  bool all_heard_ = false;
+  std::unique_ptr<CloudPublisher> clouds_;
+
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer timer_;
+  std::atomic<double> real_time_factor_{0.0}, steps_per_second_{0.0};
+  double last_time_ = 0;
+  std::uint64_t last_step_ = 0;
+  Clock::time_point last_tick_;
+  int seconds_since_end_ = 0;
+  std::atomic<bool> wants_to_exit_{false};
+
+  std::unique_ptr<SolverLoop> loop_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace wavetank

@@ -1,0 +1,62 @@
+#include "wavetank/node/cloud_publisher.h"
+
+#include <boost/make_shared.hpp>
+
+namespace wavetank {
+
+CloudPublisher::CloudPublisher(ros::NodeHandle& private_handle, const PublishingCase& publishing, const StampClock& clock)
+    : publishing_(publishing),
+      clock_(clock),
+      all_(private_handle.advertise<sensor_msgs::PointCloud2>("particles", 1)),
+      surface_(private_handle.advertise<sensor_msgs::PointCloud2>("free_surface", 1)),
+      due_(std::chrono::steady_clock::now()) {
+  thread_ = std::thread([this] { run(); });
+}
+
+CloudPublisher::~CloudPublisher() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void CloudPublisher::offer(const Simulation& simulation) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < due_) return;
+  const bool wants_all = all_.getNumSubscribers() > 0;
+  const bool wants_surface = surface_.getNumSubscribers() > 0;
+  if (!wants_all && !wants_surface) return;
+  due_ = now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(1.0 / publishing_.cloud_rate));
+  Clouds clouds;
+  if (wants_all) clouds.all = simulation.particles();
+  if (wants_surface) clouds.surface = wants_all ? surface_of(*clouds.all) : simulation.free_surface();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    latest_ = std::move(clouds);
+  }
+  wake_.notify_one();
+}
+
+void CloudPublisher::run() {
+  const auto publish = [this](const ros::Publisher& publisher, const std::optional<ParticleCloud>& cloud, CloudFields fields) {
+    if (!cloud) return;
+    publisher.publish(boost::make_shared<sensor_msgs::PointCloud2>(
+        cloud_message(*cloud, fields, publishing_.max_points, publishing_.world_frame, clock_)));
+  };
+  while (true) {
+    Clouds clouds;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      wake_.wait(lock, [this] { return stopping_ || latest_; });
+      if (stopping_) return;
+      clouds = std::move(*latest_);
+      latest_.reset();
+    }
+    publish(all_, clouds.all, CloudFields::all);
+    publish(surface_, clouds.surface, CloudFields::surface);
+  }
+}
+
+}  // namespace wavetank

@@ -1,0 +1,169 @@
+#include "wavetank/node/messages.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "wavetank/common/version.h"
+#include "wavetank/scene/case_reader.h"
+
+namespace wavetank {
+
+namespace {
+
+geometry_msgs::Point point_message(const Vector3d& position) {
+  geometry_msgs::Point point;
+  point.x = position.x();
+  point.y = position.y();
+  point.z = position.z();
+  return point;
+}
+
+geometry_msgs::Vector3 vector_message(const Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+geometry_msgs::TransformStamped translation(const std::string& parent, const std::string& child, const Vector3d& to) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform.translation = vector_message(to);
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+}  // namespace
+
+SampleMessages::SampleMessages(const Case& checked, const Layout& layout) : publishing_(checked.publishing) {
+  check_names(checked);
+  probes_.header.frame_id = gauges_.header.frame_id = publishing_.world_frame;
+  for (const PressureProbeCase& probe : checked.instruments.pressure_probes) {
+    probes_.names.push_back(probe.name);
+    probes_.positions.push_back(point_message(probe.position));
+    probe_topics_.push_back(probe_topic(probe.name));
+    probe_frames_.push_back(probe_frame(publishing_, probe.name));
+  }
+  for (const WaveGaugeCase& gauge : checked.instruments.wave_gauges) {
+    gauges_.names.push_back(gauge.name);
+    gauges_.positions.push_back(point_message({gauge.position.x(), gauge.position.y(), layout.domain.min.z()}));
+  }
+  wrench_topics_.push_back(body_topic(tank_name));
+  wrench_frames_.push_back(publishing_.world_frame);
+  for (const BodyCase& body : checked.bodies) {
+    wrench_topics_.push_back(body_topic(body.name));
+    wrench_frames_.push_back(body_frame(publishing_, body.name));
+  }
+}
+
+ProbeArray SampleMessages::probes(const PressureSample& sample, const StampClock& clock) const {
+  ProbeArray message = probes_;
+  message.header.stamp = clock.at(sample.time);
+  message.pressures = sample.pressures;
+  return message;
+}
+
+sensor_msgs::FluidPressure SampleMessages::probe(std::size_t index, const PressureSample& sample, const StampClock& clock) const {
+  sensor_msgs::FluidPressure message;
+  message.header.stamp = clock.at(sample.time);
+  message.header.frame_id = probe_frames_[index];
+  message.fluid_pressure = sample.pressures[index] + publishing_.reference_pressure;
+  return message;
+}
+
+WaveGaugeArray SampleMessages::gauges(const LevelSample& sample, const StampClock& clock) const {
+  WaveGaugeArray message = gauges_;
+  message.header.stamp = clock.at(sample.time);
+  message.levels = sample.levels;
+  return message;
+}
+
+geometry_msgs::WrenchStamped SampleMessages::wrench(std::size_t index, Part part, const WrenchSample& sample,
+                                                    const StampClock& clock) const {
+  const Wrench& wrench = sample.wrenches[index];
+  Vector3d force = Vector3d::Zero();
+  Vector3d torque = Vector3d::Zero();
+  if (part != Part::viscous) {
+    force += wrench.pressure_force;
+    torque += wrench.pressure_torque;
+  }
+  if (part != Part::pressure) {
+    force += wrench.viscous_force;
+    torque += wrench.viscous_torque;
+  }
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = clock.at(sample.time);
+  message.header.frame_id = wrench_frames_[index];
+  message.wrench.force = vector_message(force);
+  message.wrench.torque = vector_message(torque);
+  return message;
+}
+
+Vector3d centre_of_volume(const TriangleMesh& mesh) {
+  // Tetrahedra from the middle of the box, so that a mesh far from the origin loses no digits.
+  const Box box = mesh.bounding_box();
+  const Vector3d middle = (box.min + box.max) / 2.0;
+  double volume = 0.0;
+  Vector3d moment = Vector3d::Zero();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3d a = mesh.corner(i, 0) - middle, b = mesh.corner(i, 1) - middle, c = mesh.corner(i, 2) - middle;
+    const double tetrahedron = a.dot(b.cross(c)) / 6.0;
+    volume += tetrahedron;
+    moment += tetrahedron * (a + b + c) / 4.0;
+  }
+  // A surface that encloses next to nothing has no centre of volume to speak of.
+  const double scale = (box.max - box.min).norm();
+  if (std::abs(volume) < 1e-9 * scale * scale * scale) return middle;
+  return middle + moment / volume;
+}
+
+std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout) {
+  const PublishingCase& publishing = checked.publishing;
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
+    transforms.push_back(translation(publishing.world_frame, probe_frame(publishing, probe.name), probe.position));
+  for (std::size_t i = 0; i < checked.bodies.size(); ++i)
+    transforms.push_back(
+        translation(publishing.world_frame, body_frame(publishing, checked.bodies[i].name), centre_of_volume(layout.meshes[i + 1])));
+  return transforms;
+}
+
+SolverStatus status_message(const Case& checked, const SolverState& solver, const EnergySample& energies, const RunState& run,
+                            const StampClock& clock) {
+  SolverStatus message;
+  message.header.stamp = clock.at(solver.time);
+  message.header.frame_id = checked.publishing.world_frame;
+  message.title = checked.title;
+  message.device = run.device;
+  message.phase = run.phase;
+  message.paused = run.paused;
+  message.start_progress = run.start_progress;
+  message.failure = run.failure;
+  message.time = solver.time;
+  message.duration = checked.duration;
+  message.step = solver.step;
+  message.time_step = solver.time_step;
+  message.particles = solver.particles;
+  message.mass = energies.mass;
+  message.kinetic_energy = energies.kinetic;
+  message.potential_energy = energies.potential;
+  message.compression_energy = energies.compression;
+  message.greatest_speed = solver.greatest_speed;
+  message.real_time_factor = run.real_time_factor;
+  message.steps_per_second = run.steps_per_second;
+  message.guard_hits = solver.guard_hits;
+  message.shepard_bounded = solver.shepard_bounded;
+  return message;
+}
+
+std_msgs::String case_message(const Case& checked, const std::string& device) {
+  std::string comment = device;
+  std::replace(comment.begin(), comment.end(), '\n', ' ');
+  std_msgs::String message;
+  message.data = "# wavetank " + std::string(version()) + "\n# device: " + comment + "\n" + write_case(checked);
+  return message;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,47 @@
+#include "wavetank/node/names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+
+std::string graph_name(const std::string& name) {
+  std::string result = name;
+  std::replace_if(
+      result.begin(), result.end(), [](unsigned char c) { return c > 127 || (!std::isalnum(c) && c != '_'); }, '_');
+  return result;
+}
+
+std::string probe_topic(const std::string& probe) { return "probes/" + graph_name(probe); }
+
+std::string body_topic(const std::string& body) { return "bodies/" + graph_name(body) + "/wrench"; }
+
+std::string probe_frame(const PublishingCase& publishing, const std::string& probe) {
+  return publishing.world_frame + "/probes/" + graph_name(probe);
+}
+
+std::string body_frame(const PublishingCase& publishing, const std::string& body) {
+  return publishing.world_frame + "/bodies/" + graph_name(body);
+}
+
+namespace {
+
+void claim(std::map<std::string, std::string>& taken, const std::string& topic, const std::string& what) {
+  const auto [holder, is_new] = taken.emplace(topic, what);
+  if (!is_new) throw Error(what + " and " + holder->second + " would both publish on '" + topic + "': give one of them another name");
+}
+
+}  // namespace
+
+void check_names(const Case& checked) {
+  std::map<std::string, std::string> taken;
+  claim(taken, body_topic(tank_name), "the tank");
+  for (const BodyCase& body : checked.bodies) claim(taken, body_topic(body.name), "body '" + body.name + "'");
+  for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
+    claim(taken, probe_topic(probe.name), "pressure probe '" + probe.name + "'");
+}
+
+}  // namespace wavetank

@@ -1,0 +1,78 @@
+#include "wavetank/node/run_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "wavetank/common/error.h"
+#include "wavetank/common/version.h"
+
+namespace wavetank {
+
+namespace {
+
+const char* const footer =
+    "Ctrl-C ends the run after the step in progress; the bag is whole and readable then, and --save still writes.\n"
+    "Exit code: 0 done, 2 an error (one sentence on standard error), 3 the simulation was stopped by its watchdog\n"
+    "(a snapshot of it is written beside the bag), 130 ended by Ctrl-C, 143 by SIGTERM.\n"
+    "Case keys: docs/case.md. Topics in the bag: docs/topics.md.";
+
+Override read_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw Error("--set '" + text + "' is not KEY=VALUE, as in --set fluid/spacing=0.02");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+RunOptions read_command_line(int argc, char** argv) {
+  RunOptions options;
+  std::vector<std::string> settings;
+  std::string duration, device;
+  bool check = false, list_devices = false, show_version = false;
+
+  CLI::App app("wavetank_run: simulates a case without a ROS master and writes a bag.", "wavetank_run");
+  app.footer(footer);
+  app.add_option("CASE", options.case_file, "the case, a YAML file");
+  app.add_option("--bag,-b", options.bag, "write the samples to this bag (an older one is replaced)")->type_name("FILE");
+  app.add_flag("--clouds", options.clouds, "with the free surface's particles in the bag, at rate publishing/cloud_bag_rate");
+  app.add_option("--duration", duration, "simulated time instead of the case's duration, s")->type_name("S");
+  app.add_option("--set", settings, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+  app.add_option("--device", device, "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name")->type_name("DEVICE");
+  app.add_option("--restore", options.restore, "go on from this snapshot of the same case")->type_name("FILE");
+  app.add_option("--save", options.save, "write a snapshot when the run ends")->type_name("FILE");
+  app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");
+  app.add_flag("--quiet,-q", options.quiet, "print nothing but warnings and errors");
+  app.add_flag("--check", check, "read and lay out the case, report its size and estimated time, run nothing");
+  app.add_flag("--list-devices", list_devices, "print the OpenCL devices of this machine");
+  app.add_flag("--version", show_version, "print the version");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    options.action = RunOptions::Action::nothing;
+    return options;
+  } catch (const CLI::ParseError& error) {
+    throw Error(std::string(error.what()) + " (wavetank_run --help lists the options)");
+  }
+  if (show_version) {
+    std::printf("wavetank %s\n", version());
+    options.action = RunOptions::Action::nothing;
+    return options;
+  }
+  if (list_devices) {
+    options.action = RunOptions::Action::list_devices;
+    return options;
+  }
+  if (options.case_file.empty()) throw Error("give the case, a YAML file: wavetank_run CASE.yaml --bag out.bag");
+  if (options.clouds && options.bag.empty()) throw Error("--clouds needs --bag FILE to write them to");
+  for (const std::string& setting : settings) options.overrides.push_back(read_override(setting));
+  if (!duration.empty()) options.overrides.push_back({"duration", duration});
+  if (!device.empty()) options.overrides.push_back({"device", device});
+  if (check) options.action = RunOptions::Action::check;
+  return options;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,272 @@
+#include "wavetank/node/solver_loop.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "wavetank/common/log.h"
+
+namespace wavetank {
+
+namespace {
+
+constexpr auto idle_period = std::chrono::milliseconds(20);
+
+/// Thrown through the simulation's start when the loop is stopped meanwhile.
+struct Abandoned : std::exception {
+  const char* what() const noexcept override { return "the start was abandoned"; }
+};
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4f s", seconds);
+  return text;
+}
+
+}  // namespace
+
+SolverLoop::SolverLoop(Case checked, SimulationOptions options, LoopSettings settings, LoopHooks hooks)
+    : case_(std::move(checked)), options_(std::move(options)), settings_(std::move(settings)), hooks_(std::move(hooks)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+SolverLoop::~SolverLoop() {
+  stop();
+  thread_.join();
+}
+
+void SolverLoop::stop() {
+  stopping_ = true;
+  wake_.notify_all();
+}
+
+LoopStatus SolverLoop::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+// ---------------------------------------------------------------- the solver's thread
+
+void SolverLoop::run() {
+  try {
+    start();
+    loop();
+  } catch (const Abandoned&) {
+    log(LogLevel::info, "the start was abandoned");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  refuse_requests();
+  try {
+    hooks_.ended(status());
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+void SolverLoop::start() {
+  const auto callers_progress = options_.progress;
+  options_.progress = [this, callers_progress](const std::string& what, double fraction) {
+    if (stopping_) throw Abandoned();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      status_.start_progress = fraction;
+    }
+    if (callers_progress) callers_progress(what, fraction);
+  };
+  simulation_ = std::make_unique<Simulation>(case_, options_);
+  if (!settings_.restore_from.empty()) simulation_->restore(settings_.restore_from);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.start_progress = 1.0;
+    status_.solver = simulation_->state();
+    status_.energies = simulation_->energies();
+    status_.device = simulation_->device_description();
+    accepts_requests_ = true;
+  }
+  if (hooks_.started) hooks_.started(*simulation_);
+  while (!stopping_ && settings_.may_start && !settings_.may_start()) {
+    serve_requests();
+    hooks_.idle(*simulation_);
+    std::this_thread::sleep_for(idle_period);
+  }
+  pass_on_samples();
+}
+
+void SolverLoop::loop() {
+  while (!stopping_) {
+    serve_requests();
+    bool paused;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      paused = status_.paused;
+      const bool finished = status_.solver.time >= case_.duration;
+      status_.phase = finished ? LoopPhase::finished : paused ? LoopPhase::paused : LoopPhase::running;
+      if (finished || paused) {
+        pace_known_ = false;
+        wake_.wait_for(lock, idle_period, [this] { return stopping_ || !requests_.empty(); });
+        lock.unlock();
+        hooks_.idle(*simulation_);
+        continue;
+      }
+    }
+    if (wait_for_pace()) advance();
+    hooks_.idle(*simulation_);
+  }
+}
+
+void SolverLoop::advance() {
+  try {
+    simulation_->advance();
+  } catch (const Violation&) {
+    pass_on_samples();
+    throw;
+  }
+  pass_on_samples();
+}
+
+void SolverLoop::pass_on_samples() {
+  const Samples samples = simulation_->take_samples();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.solver = simulation_->state();
+    if (!samples.energies.empty()) status_.energies = samples.energies.back();
+  }
+  hooks_.stepped(*simulation_, samples);
+}
+
+bool SolverLoop::wait_for_pace() {
+  if (case_.publishing.real_time_factor <= 0.0) return true;
+  const double time = simulation_->state().time;
+  const Clock::time_point now = Clock::now();
+  const auto due = [&] {
+    return pace_wall_ + std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>((time - pace_time_) / case_.publishing.real_time_factor));
+  };
+  // The factor is an upper limit: time lost is not made up for by a burst.
+  if (!pace_known_ || now > due() + std::chrono::milliseconds(100)) {
+    pace_known_ = true;
+    pace_wall_ = now;
+    pace_time_ = time;
+  }
+  if (now >= due()) return true;
+  std::unique_lock<std::mutex> lock(mutex_);
+  wake_.wait_until(lock, std::min(due(), now + idle_period), [this] { return stopping_ || !requests_.empty(); });
+  return Clock::now() >= due() && !stopping_;
+}
+
+void SolverLoop::fail(const std::string& why) {
+  std::string failure = why;
+  const bool has_snapshot = simulation_ && !settings_.failure_snapshot.empty();
+  if (has_snapshot) {
+    try {
+      simulation_->save(settings_.failure_snapshot);
+      failure += "; its state is in '" + settings_.failure_snapshot + "'";
+    } catch (const std::exception& second) {
+      log(LogLevel::warning, std::string("no snapshot of the failure: ") + second.what());
+    }
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.phase = LoopPhase::failed;
+    status_.failure = failure;
+    if (simulation_) status_.solver = simulation_->state();
+  }
+  log(LogLevel::error, failure);
+}
+
+// ---------------------------------------------------------------- requests
+
+void SolverLoop::serve_requests() {
+  while (true) {
+    Request request;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (requests_.empty()) return;
+      request = std::move(requests_.front());
+      requests_.pop_front();
+    }
+    request(*simulation_);
+    if (failure_in_request_) std::rethrow_exception(failure_in_request_);
+  }
+}
+
+void SolverLoop::refuse_requests() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  accepts_requests_ = false;
+  requests_.clear();  // whose futures then hold a broken promise
+}
+
+Reply SolverLoop::ask(std::function<Reply(Simulation&)> what) {
+  std::future<Reply> answer;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (status_.phase == LoopPhase::failed) return {false, "the solver has stopped: " + status_.failure};
+    if (!accepts_requests_) return {false, "the solver is not running yet: it is packing the particles"};
+    Request request(std::move(what));
+    answer = request.get_future();
+    requests_.push_back(std::move(request));
+  }
+  wake_.notify_all();
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {
+    return {false, "the solver has stopped"};
+  } catch (const std::exception& error) {
+    return {false, error.what()};
+  }
+}
+
+Reply SolverLoop::pause(bool paused) {
+  const std::string what = paused ? "paused" : "running on";
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (status_.phase == LoopPhase::starting && !accepts_requests_) {
+      status_.paused = paused;
+      return {true, what + " from the start"};
+    }
+  }
+  return ask([this, paused, what](Simulation&) -> Reply {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.paused = paused;
+    return {true, what + " at " + seconds_text(status_.solver.time)};
+  });
+}
+
+Reply SolverLoop::step() {
+  return ask([this](Simulation& simulation) -> Reply {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!status_.paused) return {false, "the solver is running: pause it first"};
+      if (status_.solver.time >= case_.duration) return {false, "the run has ended at " + seconds_text(status_.solver.time)};
+    }
+    try {
+      advance();
+    } catch (const std::exception& error) {
+      failure_in_request_ = std::current_exception();
+      return {false, error.what()};
+    }
+    const SolverState state = simulation.state();
+    return {true, "step " + std::to_string(state.step) + ", time " + seconds_text(state.time)};
+  });
+}
+
+Reply SolverLoop::reset() {
+  return ask([this](Simulation& simulation) -> Reply {
+    const SolverState last = simulation.state();
+    simulation.reset();
+    hooks_.restarted(last);
+    pace_known_ = false;
+    pass_on_samples();
+    return {true, "back at time 0 from " + seconds_text(last.time)};
+  });
+}
+
+Reply SolverLoop::save(std::function<std::string(const SolverState&)> path) {
+  return ask([path](Simulation& simulation) -> Reply {
+    const std::string file = path(simulation.state());
+    simulation.save(file);
+    return {true, file};
+  });
+}
+
+}  // namespace wavetank

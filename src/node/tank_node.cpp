@@ -1,0 +1,213 @@
+#include "wavetank/node/tank_node.h"
+
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "wavetank/common/log.h"
+#include "wavetank/node/markers.h"
+#include "wavetank/node/resources.h"
+
+namespace wavetank {
+
+namespace {
+
+constexpr std::uint32_t sample_queue = 100000;  ///< messages a subscriber may lag behind before samples are lost to it
+constexpr double bag_status_period = 0.01;      ///< s of simulated time
+constexpr auto clock_period = std::chrono::milliseconds(10);
+constexpr auto recorder_pause = std::chrono::milliseconds(500);  ///< between a recorder's first and last subscription
+
+std::string time_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4fs", seconds);
+  return text;
+}
+
+}  // namespace
+
+TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup)
+    : handle_(handle),
+      private_(private_handle),
+      setup_(std::move(setup)),
+      case_(setup_.scene),
+      clock_due_(Clock::now()),
+      diagnostics_(handle_, private_),
+      last_tick_(Clock::now()) {
+  check_names(case_);
+  const NodeParameters& parameters = setup_.parameters;
+  if (!parameters.bag.empty()) bag_ = std::make_unique<BagWriter>(parameters.bag, private_.getNamespace());
+  advertise_topics();
+  clouds_ = std::make_unique<CloudPublisher>(private_, case_.publishing, clock_);
+  diagnostics_.setHardwareID(case_.device);
+  diagnostics_.add("solver", this, &TankNode::fill_diagnostics);
+
+  SimulationOptions options;
+  options.resolve = resolve_resource;
+  LoopSettings settings;
+  settings.restore_from = parameters.restore;
+  settings.failure_snapshot = snapshot_path("failure");
+  if (parameters.wait_for_subscribers > 0) settings.may_start = [this] { return everything_is_heard(); };
+  loop_ = std::make_unique<SolverLoop>(case_, std::move(options), std::move(settings), make_hooks());
+  advertise_services();
+  timer_ = handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { every_second(); });
+}
+
+TankNode::~TankNode() {
+  timer_.stop();
+  services_.clear();
+  loop_.reset();
+}
+
+int TankNode::exit_code() const { return loop_->status().phase == LoopPhase::failed ? 3 : 0; }
+
+void TankNode::advertise_topics() {
+  const auto advertise = [this](const std::string& topic, auto message) {
+    sample_publishers_[topic] = private_.advertise<decltype(message)>(topic, sample_queue);
+  };
+  advertise(SampleMessages::probes_topic, ProbeArray());
+  advertise(SampleMessages::gauges_topic, WaveGaugeArray());
+  for (const PressureProbeCase& probe : case_.instruments.pressure_probes) advertise(probe_topic(probe.name), sensor_msgs::FluidPressure());
+  std::vector<std::string> bodies{tank_name};
+  for (const BodyCase& body : case_.bodies) bodies.push_back(body.name);
+  for (const std::string& body : bodies)
+    for (const char* part : {"", "/pressure", "/viscous"}) advertise(body_topic(body) + part, geometry_msgs::WrenchStamped());
+  markers_ = private_.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
+  case_publisher_ = private_.advertise<std_msgs::String>("case", 1, true);
+  status_ = private_.advertise<SolverStatus>("status", 10);
+  if (case_.publishing.publish_clock) {
+    ros_clock_ = handle_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+    if (!ros::param::param("/use_sim_time", false))
+      log(LogLevel::warning, "this node publishes /clock, but the parameter /use_sim_time is not true: others will not follow it");
+  }
+}
+
+void TankNode::advertise_services() {
+  const auto trigger = [this](const std::string& name, std::function<Reply()> action) {
+    services_.push_back(private_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
+        name, [action](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+          const Reply reply = action();
+          response.success = reply.success;
+          response.message = reply.message;
+          return true;
+        }));
+  };
+  trigger("step", [this] { return loop_->step(); });
+  trigger("reset", [this] { return loop_->reset(); });
+  trigger("save", [this] { return loop_->save([this](const SolverState& state) { return snapshot_path(time_text(state.time)); }); });
+  services_.push_back(private_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
+      "pause", [this](std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+        const Reply reply = loop_->pause(request.data);
+        response.success = reply.success;
+        response.message = reply.message;
+        return true;
+      }));
+}
+
+// ---------------------------------------------------------------- called by the solver's thread
+
+LoopHooks TankNode::make_hooks() {
+  LoopHooks hooks;
+  hooks.started = [this](const Simulation& simulation) { started(simulation); };
+  hooks.stepped = [this](const Simulation& simulation, const Samples& samples) { stepped(simulation, samples); };
+  hooks.restarted = [this](const SolverState& last) {
+    clock_.restart_after(last.time);
+    next_bag_cloud_ = next_bag_status_ = 0.0;
+    log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");
+  };
+  hooks.idle = [this](const Simulation& simulation) { idle(simulation); };
+  hooks.ended = [this](const LoopStatus& status) { ended(status); };
+  return hooks;
+}
+
+void TankNode::started(const Simulation& simulation) {
+  messages_ = std::make_unique<SampleMessages>(case_, simulation.layout());
+  const auto drawing = markers(case_, simulation.layout());
+  const auto scene = case_message(simulation.scene(), simulation.device_description());
+  markers_.publish(drawing);
+  case_publisher_.publish(scene);
+  const auto transforms = static_transforms(case_, simulation.layout());
+  if (!transforms.empty()) transforms_.sendTransform(transforms);
+  const double time = simulation.state().time;
+  next_bag_cloud_ = next_bag_status_ = time;
+  if (bag_) {
+    bag_->write_latched("markers", clock_.at(time), drawing);
+    bag_->write_latched("case", clock_.at(time), scene);
+    tf2_msgs::TFMessage message;
+    message.transforms = transforms;
+    bag_->write_latched("/tf_static", clock_.at(time), message);
+  }
+  log(LogLevel::info, simulation.summary());
+  subscribers_due_ =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(setup_.parameters.wait_for_subscribers));
+}
+
+void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
+  const double time = simulation.state().time;
+  // Before the samples, so that nobody gets one from the future.
+  if (!samples.pressures.empty() || Clock::now() >= clock_due_) publish_clock(time);
+  messages_->emit(samples, clock_, [this](const std::string& topic, const auto& message) { publish_sample(topic, message); });
+  if (!bag_) return;
+  for (const EnergySample& energies : samples.energies) {
+    if (energies.time < next_bag_status_ - 1e-9) continue;
+    next_bag_status_ += bag_status_period;
+    LoopStatus status;
+    status.phase = LoopPhase::running;
+    status.start_progress = 1.0;
+    status.solver = simulation.state();
+    status.solver.time = energies.time;
+    status.energies = energies;
+    status.device = simulation.device_description();
+    bag_->write("status", clock_.at(energies.time), make_status(status));
+  }
+  if (setup_.parameters.bag_clouds) write_cloud(simulation, time);
+}
+
+template <class Message>
+void TankNode::publish_sample(const std::string& topic, const Message& message) {
+  sample_publishers_.at(topic).publish(message);
+  if (bag_) bag_->write(topic, message.header.stamp, message);
+}
+
+void TankNode::write_cloud(const Simulation& simulation, double time) {
+  if (time < next_bag_cloud_) return;
+  next_bag_cloud_ += 1.0 / case_.publishing.cloud_bag_rate;
+  const auto cloud =
+      cloud_message(simulation.free_surface(), CloudFields::surface, case_.publishing.max_points, case_.publishing.world_frame, clock_);
+  bag_->write("free_surface", cloud.header.stamp, cloud);
+}
+
+void TankNode::idle(const Simulation& simulation) {
+  if (Clock::now() >= clock_due_) publish_clock(simulation.state().time);
+  clouds_->offer(simulation);
+}
+
+void TankNode::publish_clock(double time) {
+  if (!case_.publishing.publish_clock) return;
+  clock_due_ = Clock::now() + clock_period;
+  rosgraph_msgs::Clock message;
+  message.clock = nonzero(clock_.at(time));
+  ros_clock_.publish(message);
+}
+
+bool TankNode::everything_is_heard() {
+  const auto is_heard = [this](const std::string& topic, bool has_instruments) {
+    return !has_instruments || sample_publishers_.at(topic).getNumSubscribers() > 0;
+  };
+  if (!all_heard_ && is_heard(SampleMessages::probes_topic, !case_.instruments.pressure_probes.empty()) &&
+      is_heard(SampleMessages::gauges_topic, !case_.instruments.wave_gauges.empty())) {
+    all_heard_ = true;
+    subscribers_due_ = std::min(subscribers_due_, Clock::now() + recorder_pause);
+  }
+  return Clock::now() >= subscribers_due_;
+}
+
+void TankNode::ended(const LoopStatus& status) {
+  if (!bag_ || !bag_->is_open()) return;
+  bag_->write("status", clock_.at(status.solver.time), make_status(status));
+  bag_->finish();
+  log(LogLevel::info, "wrote '" + bag_->path() + "'");
+}
+
+}  // namespace wavetank

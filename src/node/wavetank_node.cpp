@@ -1,0 +1,58 @@
+// The live node: everything is in TankNode; here are only the process's beginning and end.
+#include <ros/ros.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "wavetank/common/log.h"
+#include "wavetank/common/version.h"
+#include "wavetank/node/parameters.h"
+#include "wavetank/node/tank_node.h"
+
+namespace {
+
+const char* const usage =
+    "wavetank_node: a numerical wave tank as a ROS node.\n"
+    "Its private parameters are the keys of a case (docs/case.md), or ~case_file names the case and the others replace its keys.\n"
+    "Topics, services and the node's own parameters: docs/topics.md. Without a ROS master, use wavetank_run.\n"
+    "Exit code: 0 at the end, 2 if the case cannot be read, 3 if the simulation failed.\n";
+
+void log_to_ros(wavetank::LogLevel level, const std::string& line) {
+  switch (level) {
+    case wavetank::LogLevel::info:
+      ROS_INFO("%s", line.c_str());
+      break;
+    case wavetank::LogLevel::warning:
+      ROS_WARN("%s", line.c_str());
+      break;
+    case wavetank::LogLevel::error:
+      ROS_ERROR("%s", line.c_str());
+      break;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "wavetank");
+  for (int i = 1; i < argc; ++i) {
+    const bool version = std::strcmp(argv[i], "--version") == 0;
+    if (version) std::printf("wavetank %s\n", wavetank::version());
+    if (!version) std::fputs(usage, stdout);
+    return version || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ? 0 : 2;
+  }
+  wavetank::set_log_sink(log_to_ros);
+  if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
+  try {
+    ros::NodeHandle handle, private_handle("~");
+    wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
+    ros::AsyncSpinner spinner(2);
+    spinner.start();
+    while (ros::ok() && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
+    spinner.stop();
+    return node.exit_code();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,102 @@
+// Simulates a case without a ROS master and writes a bag: everything but the process's own affairs is in BagRun.
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "wavetank/common/log.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/node/bag_run.h"
+#include "wavetank/node/resources.h"
+#include "wavetank/node/run_options.h"
+
+namespace {
+
+using namespace wavetank;
+
+constexpr int exit_error = 2;
+constexpr int exit_violation = 3;
+constexpr int exit_signal = 128;  // plus the signal's number, as shells have it
+
+std::atomic<int> caught_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+extern "C" void on_signal(int signal_number) {
+  caught_signal = signal_number;
+  std::signal(signal_number, SIG_DFL);  // a second one ends the process at once
+}
+
+bool is_quiet = false;
+
+void log_to_console(LogLevel level, const std::string& line) {
+  if (level == LogLevel::info) {
+    if (!is_quiet) std::printf("%s\n", line.c_str());
+    return;
+  }
+  std::fprintf(stderr, "wavetank_run: %s%s\n", level == LogLevel::warning ? "warning: " : "", line.c_str());
+}
+
+void list_devices() {
+  const std::vector<compute::DeviceInfo> devices = compute::list_devices();
+  if (devices.empty())
+    throw Error("there is no OpenCL device here: install pocl-opencl-icd for the CPU, or your graphics card's OpenCL driver");
+  for (const compute::DeviceInfo& device : devices) std::printf("%s\n", device.describe().c_str());
+}
+
+void check(const RunOptions& options) {
+  const Case checked = read_case_file(options.case_file, options.overrides);
+  check_names(checked);
+  SimulationOptions simulation_options;
+  simulation_options.resolve = resolve_resource;
+  const Estimate estimated = estimate(checked, simulation_options);
+  std::printf("%s\n", checked.title.c_str());
+  std::printf("particles         %zu\n", estimated.particles);
+  std::printf("wall elements     %zu\n", estimated.wall_elements);
+  std::printf("lid elements      %zu\n", estimated.lid_elements);
+  std::printf("device memory     %.1f MiB\n", estimated.device_memory / (1024.0 * 1024.0));
+  std::printf("time step         %.3g s\n", estimated.time_step);
+  std::printf("simulated time    %.6g s\n", checked.duration);
+  std::printf("estimated time    %s\n", duration_text(estimated.wall_seconds).c_str());
+}
+
+int run(const RunOptions& options) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  BagRun bag_run(options, caught_signal);
+  switch (bag_run.run()) {
+    case BagRun::Outcome::done:
+      return 0;
+    case BagRun::Outcome::violated:
+      return exit_violation;
+    case BagRun::Outcome::interrupted:
+      return exit_signal + caught_signal;
+  }
+  return exit_error;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    set_log_sink(log_to_console);
+    const RunOptions options = read_command_line(argc, argv);
+    is_quiet = options.quiet;
+    switch (options.action) {
+      case RunOptions::Action::list_devices:
+        list_devices();
+        return 0;
+      case RunOptions::Action::check:
+        check(options);
+        return 0;
+      case RunOptions::Action::run:
+        return run(options);
+      case RunOptions::Action::nothing:
+        return 0;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wavetank_run: %s\n", error.what());
+    return exit_error;
+  }
+  return exit_error;
+}
