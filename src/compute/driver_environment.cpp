@@ -1,6 +1,7 @@
 #include "driver_environment.h"
 
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -21,13 +22,20 @@ bool can_be_written(std::filesystem::path directory) {
   return std::filesystem::is_directory(directory, failure) && access(directory.c_str(), W_OK | X_OK) == 0;
 }
 
+/// Code is loaded from there, so a directory or link that somebody else has put in the shared temporary directory will not do.
+bool is_own_directory(const std::string& directory) {
+  struct stat status {};
+  return lstat(directory.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
+         (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
 void give_pocl_a_cache() {
   if (!environment("POCL_CACHE_DIR").empty()) return;
   const std::string usual = user_cache_directory();
   if (!usual.empty() && can_be_written(usual + "/pocl/kcache")) return;
   std::error_code ignored;
   const std::string temporary = std::filesystem::temp_directory_path(ignored).string() + "/wavetank-pocl-" + std::to_string(geteuid());
-  if (make_writable_directory(temporary)) setenv("POCL_CACHE_DIR", temporary.c_str(), 0);
+  if (make_writable_directory(temporary) && is_own_directory(temporary)) setenv("POCL_CACHE_DIR", temporary.c_str(), 0);
 }
 
 }  // namespace

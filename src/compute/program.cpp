@@ -1,5 +1,7 @@
 #include "wavetank/compute/program.h"
 
+#include <cstdlib>
+
 #include "program_cache.h"
 #include "program_state.h"
 #include "source.h"
@@ -14,6 +16,13 @@ Hash key_of(const Device::State& device, const std::string& source, const std::s
                                   &device.info.platform_name, &device.platform_version})
     key.add(*part);
   return key;
+}
+
+/// pocl keeps what it compiles on disk itself, for the work-group sizes that were used; asking it for a binary makes it compile every
+/// kernel once more for no particular size. So it is left to its own cache, unless a directory of ours was named.
+std::string cache_directory_for(const DeviceInfo& device) {
+  const bool keeps_its_own = device.platform_name == "Portable Computing Language";
+  return keeps_its_own && std::getenv("WAVETANK_CACHE_DIRECTORY") == nullptr ? "" : cache_directory();
 }
 
 std::string build_log(cl_program program, cl_device_id device) {
@@ -39,7 +48,7 @@ std::string kernel_names(cl_program program) {
 Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& options)
     : device(std::move(on)), main(main_file) {
   const std::string source = resolve_includes(files, main);
-  const std::string directory = cache_directory();
+  const std::string directory = cache_directory_for(device->info);
   const Hash key = key_of(*device, source, options);
   if (!directory.empty() && build_from_binary(load_binary(directory, key), options)) return;
   build_from_source(files, source, options);

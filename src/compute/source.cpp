@@ -124,14 +124,16 @@ std::string resolve_includes(const SourceFiles& files, const std::string& main) 
 }
 
 std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files) {
-  // Clang and all that grew from it: FILE:LINE:COLUMN: error: MESSAGE; others: "FILE", line LINE: error: MESSAGE
-  static const std::regex place("^(?:error: )?\"?([^:\"]+)\"?(?::|, line )([0-9]+)(?::[0-9]+)?: *(?:fatal |catastrophic )?error: *(.*)$");
+  // FILE:LINE:COLUMN: error: MESSAGE (clang and what grew from it), "FILE", line LINE: error: MESSAGE, and pocl's error: FILE:LINE:COLUMN:
+  // MESSAGE
+  static const std::regex place_first("^\"?([^:\"]+)\"?(?::|, line )([0-9]+)(?::[0-9]+)?: *(?:fatal |catastrophic )?error: *(.*)$");
+  static const std::regex place_last("^(?:fatal )?error: ([^:\"]+):([0-9]+)(?::[0-9]+)?: *(.*)$");
   std::vector<CompilerError> errors;
   std::istringstream lines(log);
   std::string line;
   while (std::getline(lines, line)) {
     std::smatch match;
-    if (line.size() > 2000 || !std::regex_match(line, match, place)) continue;
+    if (line.size() > 2000 || !(std::regex_match(line, match, place_first) || std::regex_match(line, match, place_last))) continue;
     CompilerError error;
     error.message = match[3];
     const std::string name = base_name(match[1]);

@@ -57,6 +57,7 @@ class Program {
   /// Builds files[main] with its includes. `options` are OpenCL build options ("-DDIMENSIONS=3 -cl-fast-relaxed-math").
   /// Compiled programs are cached on disk ($WAVETANK_CACHE_DIRECTORY, else $XDG_CACHE_HOME/wavetank, else ~/.cache/wavetank; switched off by
   /// WAVETANK_CACHE_DIRECTORY= empty), keyed by source, options, device and driver; a damaged or unwritable cache is never an error.
+  /// pocl has a cache of its own and uses this one only if WAVETANK_CACHE_DIRECTORY names it.
   /// A build error throws Error with the compiler's message and the offending source line.
   Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options);
   /// Throws Error if the program has no kernel of that name.

@@ -1,0 +1,81 @@
+#include "../../src/compute/source.h"
+
+#include "compute_fixture.h"
+
+namespace wavetank::compute {
+namespace {
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ResolveIncludes, KeepsNamesAndLines) {
+  const SourceFiles files{{"main.cl", "int a;\n #  include \"b.cl\"\nint c;\n"}, {"b.cl", "int b;\n"}};
+  const std::string text = resolve_includes(files, "main.cl");
+  EXPECT_TRUE(contains(text, "#line 1 \"main.cl\"\nint a;\n")) << text;
+  EXPECT_TRUE(contains(text, "#line 1 \"b.cl\"\nint b;\n")) << text;
+  EXPECT_TRUE(contains(text, "#line 3 \"main.cl\"\nint c;\n")) << text;
+}
+
+TEST(ResolveIncludes, WritesAFileOnceAndSurvivesACircle) {
+  const SourceFiles files{{"main.cl", "#include \"a.cl\"\n#include \"b.cl\"\n#include \"b.cl\"\n"},
+                          {"a.cl", "#include \"b.cl\"\n#include \"a.cl\"\nint a;\n"},
+                          {"b.cl", "#include \"a.cl\"\n#include \"main.cl\"\nint b;\n"}};
+  const std::string text = resolve_includes(files, "main.cl");
+  EXPECT_EQ(count_of(text, "int a;"), 1) << text;
+  EXPECT_EQ(count_of(text, "int b;"), 1) << text;
+}
+
+TEST(ResolveIncludes, RefusesAnUnknownName) {
+  const SourceFiles files{{"main.cl", "\n#include \"a.cl\"\n"}, {"a.cl", "\n\n#include \"weir.cl\"\n"}};
+  const std::string error = error_of([&] { resolve_includes(files, "main.cl"); });
+  EXPECT_TRUE(contains(error, "a.cl:3: #include \"weir.cl\"")) << error;
+  EXPECT_TRUE(contains(error, "a.cl, main.cl")) << error;
+  EXPECT_TRUE(contains(error_of([&] { resolve_includes(files, "tide.cl"); }), "\"tide.cl\""));
+}
+
+TEST(CompilerErrors, AreReadInTheFormsThatDriversUse) {
+  const SourceFiles files{{"sweep.cl", "one\n  two = three;\n"}};
+  const auto errors = compiler_errors(
+      "warning: something\n"
+      "sweep.cl:2:9: error: use of undeclared identifier 'three'\n"
+      "error: sweep.cl:1:1: unknown type name 'one'\n"
+      "/usr/src/sweep.cl:1:1: fatal error: unknown type name 'one'\n"
+      "\"sweep.cl\", line 1: error: identifier \"one\" is undefined\n"
+      "other.cl:7:1: error: elsewhere\n",
+      files);
+  ASSERT_EQ(errors.size(), 5u);
+  EXPECT_EQ(errors[0].file, "sweep.cl");
+  EXPECT_EQ(errors[0].line, 2);
+  EXPECT_EQ(errors[0].message, "use of undeclared identifier 'three'");
+  EXPECT_EQ(errors[1].file, "sweep.cl");
+  EXPECT_EQ(errors[1].message, "unknown type name 'one'");
+  EXPECT_EQ(errors[2].file, "sweep.cl");
+  EXPECT_EQ(errors[2].line, 1);
+  EXPECT_EQ(errors[3].message, "identifier \"one\" is undefined");
+  EXPECT_EQ(errors[4].file, "");
+}
+
+TEST(ExplainBuildLog, QuotesTheFirstErrorsOnly) {
+  const SourceFiles files{{"sweep.cl", "one\n  two = three;\n"}};
+  std::string log;
+  for (int i = 0; i < 9; ++i) log += "sweep.cl:2:9: error: number " + std::to_string(i) + "\n  two = three;\n        ^\n";
+  const std::string text = explain_build_log(log, files);
+  EXPECT_TRUE(contains(text, "sweep.cl:2: number 0\n    two = three;\n")) << text;
+  EXPECT_FALSE(contains(text, "number 3")) << text;
+  EXPECT_TRUE(contains(text, "and 6 more")) << text;
+}
+
+TEST(ExplainBuildLog, GivesAnUnknownFormAsItIs) {
+  std::string log;
+  for (int i = 0; i < 99; ++i) log += "ptxas trouble " + std::to_string(i) + "\n";
+  const std::string text = explain_build_log(log, {});
+  EXPECT_TRUE(contains(text, "ptxas trouble 0\n")) << text;
+  EXPECT_FALSE(contains(text, "ptxas trouble 50")) << text;
+  EXPECT_FALSE(explain_build_log("", {}).empty());
+}
+
+}  // namespace
+}  // namespace wavetank::compute
