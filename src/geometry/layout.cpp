@@ -187,7 +187,10 @@ void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const Tria
         dimensions == 2 ? sample_outline(parts[p].outline, layout.spacing) : sample_mesh(parts[p].mesh, layout.spacing);
     std::vector<WallElement> walls = face_walls(patches, static_cast<int>(p), open, grid, layout.spacing);
     if (dimensions == 2) {
-      for (WallElement& wall : walls) wall.area /= layout.spacing;  // the ribbons' width
+      for (WallElement& wall : walls) {
+        wall.area /= layout.spacing;                               // the ribbons' width
+        wall.centre.y() = wall.normal.y() = wall.tangent.y() = 0;  // free of rounding
+      }
     }
     layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
   }

@@ -17,7 +17,7 @@ class OpenSpace {
   /// Floods from the points through voxels whose centres lie below `top`.
   void flood(const std::vector<Vector3d>& from, double top = std::numeric_limits<double>::infinity());
 
-  /// Whether the flood passed a voxel near `about` that can be seen from `from`.
+  /// Whether the flood passed a voxel near `about` that can be seen from `from`, a place in the domain.
   bool reached(const Vector3d& from, const Vector3d& about) const;
 
   /// Where the flood found the domain's side or bottom open, if it did. The domain's top may be open.

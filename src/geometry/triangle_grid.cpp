@@ -137,7 +137,12 @@ std::optional<double> TriangleGrid::first_crossing(const Vector3d& from, const V
   double entry;
   visit_cells(from.cwiseMin(to), from.cwiseMax(to), [&](std::size_t cell) {
     for (int i = start_[cell]; i < start_[cell + 1]; ++i) {
-      if (meets(prepared_[content_[i]], from, to, entry) && (!first || entry < *first)) first = entry;
+      const Prepared& t = prepared_[content_[i]];
+      if (!meets(t, from, to, entry)) continue;
+      const double before = t.normal.dot(from) - t.offset, after = t.normal.dot(to) - t.offset;
+      const double fraction =
+          before * after < 0 ? before / (before - after) : entry;  // of the plane itself where the way passes through it
+      if (!first || fraction < *first) first = fraction;
     }
   });
   return first;

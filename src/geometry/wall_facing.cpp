@@ -18,12 +18,22 @@ struct Facing {
   Vector3d moment = Vector3d::Zero();  ///< Σ area × centre
   Vector3d flux = Vector3d::Zero();    ///< Σ area × normal, out of the fluid
   double area = 0;
+  double divergence = 0;  ///< Σ area × centre · normal
 
   void add(const Polygon& piece, const Vector3d& normal_out, double factor) {
     const double part = factor * vector_area(piece).norm();
-    moment += part * centroid(piece);
+    const Vector3d centre = centroid(piece);
+    moment += part * centre;
     flux += part * normal_out;
     area += part;
+    divergence += part * centre.dot(normal_out);
+  }
+
+  void add(const Facing& other) {
+    moment += other.moment;
+    flux += other.flux;
+    area += other.area;
+    divergence += other.divergence;
   }
 };
 
@@ -57,6 +67,8 @@ class Facer {
  private:
   bool wetted(const Polygon& piece, const Vector3d& to_fluid) const {
     const Vector3d centre = centroid(piece), from = centre + lift * spacing_ * to_fluid;
+    // At a sharp edge another face may pass between the piece and the place in front of it.
+    if (grid_.crosses(centre + 3 * grid_.tolerance() * to_fluid, from)) return false;
     for (const double ahead : {0.6, 1.0, 0.3}) {
       if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return true;
     }
@@ -159,7 +171,8 @@ struct Unfinished {
 };
 
 /// Joins small elements of curved walls that lie in one cell of the spacing and face the same way, so that a finely triangulated hull does
-/// not get an element a triangle. Area vectors are added: the flux through a closed surface stays zero.
+/// not get an element a triangle. Area vectors are added: the flux through a closed surface stays zero; and the joined element stands off
+/// its pieces' mean so that their Σ area × centre · normal, three times the enclosed volume, stays as well.
 void join_small(std::vector<Unfinished>& elements, double spacing, const Vector3d& origin) {
   std::unordered_map<std::int64_t, std::vector<std::size_t>> cells;
   std::vector<Unfinished> result;
@@ -181,10 +194,7 @@ void join_small(std::vector<Unfinished>& elements, double spacing, const Vector3
       here.push_back(result.size());
       result.push_back(element);
     } else {
-      Facing& joined = result[*found].facing;
-      joined.moment += element.facing.moment;
-      joined.flux += element.facing.flux;
-      joined.area += element.facing.area;
+      result[*found].facing.add(element.facing);
     }
   }
   elements = std::move(result);
@@ -216,6 +226,7 @@ std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int o
     wall.centre = element.facing.moment / element.facing.area;
     wall.area = element.facing.flux.norm();
     wall.normal = element.facing.flux / wall.area;
+    wall.centre += (element.facing.divergence / wall.area - wall.centre.dot(wall.normal)) * wall.normal;
     wall.tangent = (element.tangent - wall.normal.dot(element.tangent) * wall.normal).normalized();
     wall.owner = owner;
     walls.push_back(wall);

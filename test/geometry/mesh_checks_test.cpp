@@ -1,0 +1,160 @@
+#include <algorithm>
+
+#include "geometry_fixture.h"
+
+namespace wavetank {
+namespace {
+
+const Box unit_cube{Vector3d::Zero(), Vector3d::Ones()};
+
+TriangleMesh cube(bool open_top = false) { return box_mesh(unit_cube, open_top, "cube"); }
+
+TEST(BoxMesh, IsWoundOutwards) {
+  EXPECT_NEAR(cube().signed_volume(), 1.0, 1e-15);
+  EXPECT_EQ(cube().triangles.size(), 12u);
+  EXPECT_EQ(cube(true).triangles.size(), 10u);
+  EXPECT_NEAR(surface_area(cube(true)), 5.0, 1e-15);
+  TriangleMesh open = cube(true);
+  for (std::size_t t = 0; t < open.triangles.size(); ++t) {
+    EXPECT_LT(std::min({open.corner(t, 0).z(), open.corner(t, 1).z(), open.corner(t, 2).z()}), 0.5) << "a triangle of the top is left";
+  }
+}
+
+TEST(SignedVolume, KeepsItsDigitsFarFromTheOrigin) {
+  const Vector3d far(1e6, -1e6, 1e6);
+  EXPECT_NEAR(box_mesh({far, far + Vector3d(1, 2, 3)}, false, "far").signed_volume(), 6.0, 1e-8);
+}
+
+TEST(CheckSurface, RefusesEmptyAndDegenerate) {
+  TriangleMesh mesh;
+  mesh.name = "hull";
+  EXPECT_ERROR(check_surface(mesh), "'hull' has no triangles");
+  mesh.vertices = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(2, 0, 0)};
+  mesh.triangles = {Vector3i(0, 1, 2), Vector3i(0, 0, 1)};
+  EXPECT_ERROR(check_surface(mesh), "zero area");
+}
+
+TEST(CheckSurface, RefusesAnEdgeOfThreeTriangles) {
+  TriangleMesh mesh;
+  mesh.name = "fin";
+  mesh.vertices = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(0, 0, 1)};
+  mesh.triangles = {Vector3i(0, 1, 2), Vector3i(0, 1, 3), Vector3i(0, 1, 4)};
+  EXPECT_ERROR(check_surface(mesh), "3 triangles share the edge from (0, 0, 0) to (1, 0, 0)");
+}
+
+TEST(CheckClosed, RefusesAnOpenBodyAndSaysWhere) {
+  TriangleMesh mesh = cube(true);
+  EXPECT_ERROR(check_closed(mesh), "'cube' is not closed");
+  const std::string message = error_of([&] { check_closed(mesh); });
+  EXPECT_NE(message.find(", 1)"), std::string::npos) << "an edge of the open top has z = 1: " << message;
+}
+
+TEST(CheckClosed, TurnsAnInvertedBodyOutwards) {
+  TriangleMesh mesh = cube();
+  for (Vector3i& t : mesh.triangles) std::swap(t[0], t[1]);
+  EXPECT_NEAR(mesh.signed_volume(), -1.0, 1e-15);
+  check_closed(mesh);
+  EXPECT_NEAR(mesh.signed_volume(), 1.0, 1e-15);
+}
+
+TEST(CheckClosed, RepairsEveryMixtureOfWindings) {
+  for (int mask = 0; mask < 4096; mask += 7) {
+    TriangleMesh mesh = cube();
+    for (int t = 0; t < 12; ++t) {
+      if (mask >> t & 1) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    }
+    check_closed(mesh);
+    EXPECT_NEAR(mesh.signed_volume(), 1.0, 1e-15) << mask;
+  }
+}
+
+TEST(CheckClosed, TurnsEachPartOnItsOwn) {
+  TriangleMesh mesh = cube();
+  for (Vector3i& t : mesh.triangles) std::swap(t[0], t[1]);
+  append(mesh, box_mesh({Vector3d(2, 0, 0), Vector3d(3, 1, 1)}, false, ""));
+  check_closed(mesh);
+  EXPECT_NEAR(mesh.signed_volume(), 2.0, 1e-12);
+}
+
+TEST(CheckClosed, KeepsACavity) {
+  for (const bool inverted : {false, true}) {
+    TriangleMesh cavity = box_mesh({Vector3d::Constant(0.25), Vector3d::Constant(0.75)}, false, "");
+    if (inverted) std::for_each(cavity.triangles.begin(), cavity.triangles.end(), [](Vector3i& t) { std::swap(t[0], t[1]); });
+    TriangleMesh mesh = cube();
+    append(mesh, cavity);
+    check_closed(mesh);
+    EXPECT_NEAR(mesh.signed_volume(), 1.0 - 0.125, 1e-12);
+    EXPECT_FALSE(inside(mesh, Vector3d::Constant(0.5)));
+    EXPECT_TRUE(inside(mesh, Vector3d::Constant(0.1)));
+  }
+}
+
+/// Two tetrahedra tip to tip whose surface crosses itself: one of them comes out inside out, like a glove half turned.
+TEST(CheckClosed, RefusesASurfaceThatTurnsInsideOut) {
+  TriangleMesh mesh = cube();
+  for (int v = 4; v < 8; ++v) {  // twist the top by half a turn: the sides cross each other
+    mesh.vertices[v].x() = 1 - mesh.vertices[v].x();
+    mesh.vertices[v].y() = 1 - mesh.vertices[v].y();
+  }
+  mesh.vertices[4].z() = mesh.vertices[5].z() = mesh.vertices[6].z() = mesh.vertices[7].z() = 0.4;
+  mesh.name = "glove";
+  for (int v = 4; v < 8; ++v) mesh.vertices[v].x() = 1 - mesh.vertices[v].x();  // now only y is exchanged: a bow tie in the y–z plane
+  EXPECT_ERROR(check_closed(mesh), "'glove'");
+}
+
+TEST(CheckClosed, RefusesAMoebiusBandOfABody) {
+  TriangleMesh mesh;  // the projective plane on six vertices: closed, but without two sides
+  mesh.name = "cross cap";
+  mesh.vertices = {Vector3d(0, 0, 0),     Vector3d(1, 0, 0.1), Vector3d(0.3, 1, 0),
+                   Vector3d(0.2, 0.1, 1), Vector3d(1, 1, 0.7), Vector3d(0.4, 0.9, 1.3)};
+  mesh.triangles = {Vector3i(0, 1, 2), Vector3i(0, 2, 3), Vector3i(0, 3, 4), Vector3i(0, 4, 5), Vector3i(0, 5, 1),
+                    Vector3i(1, 2, 4), Vector3i(2, 3, 5), Vector3i(3, 4, 1), Vector3i(4, 5, 2), Vector3i(5, 1, 3)};
+  EXPECT_ERROR(check_closed(mesh), "cannot be wound consistently");
+}
+
+TEST(CheckClosed, RefusesABodyWithoutVolume) {
+  TriangleMesh mesh;  // a sheet with two sides
+  mesh.name = "sheet";
+  mesh.vertices = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
+  mesh.triangles = {Vector3i(0, 1, 2), Vector3i(0, 2, 3), Vector3i(0, 3, 1), Vector3i(1, 3, 2)};
+  EXPECT_ERROR(check_closed(mesh), "without volume");
+}
+
+TEST(CheckClosed, KeepsABodyClosedWhenACollinearTriangleGoes) {
+  TriangleMesh mesh = cube();
+  // The bottom's diagonal gets a point in its middle on one side only, and a triangle of zero area that fills the crack.
+  const Vector3i first = mesh.triangles[0], second = mesh.triangles[1];  // (a, b, c), (a, c, d)
+  const int a = first[0], b = first[1], c = first[2], middle = 8;
+  ASSERT_EQ(second[0], a);
+  ASSERT_EQ(second[1], c);
+  mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[c]));
+  mesh.triangles[0] = Vector3i(a, b, middle);
+  mesh.triangles.emplace_back(middle, b, c);
+  mesh.triangles.emplace_back(a, middle, c);
+  check_closed(mesh);
+  EXPECT_EQ(mesh.triangles.size(), 14u);
+  EXPECT_NEAR(mesh.signed_volume(), 1.0, 1e-12);
+}
+
+TEST(Inside, HoldsUpToTheSurface) {
+  const TriangleMesh mesh = cube();
+  EXPECT_TRUE(inside(mesh, Vector3d::Constant(0.5)));
+  for (const double near : {1e-3, 1e-6, 1e-9}) {
+    EXPECT_TRUE(inside(mesh, Vector3d(near, near, near)));
+    EXPECT_TRUE(inside(mesh, Vector3d(0.5, 0.5, 1 - near)));
+    EXPECT_FALSE(inside(mesh, Vector3d(-near, 0.5, 0.5)));
+    EXPECT_FALSE(inside(mesh, Vector3d(1 + near, 1 + near, 1 + near)));
+    EXPECT_FALSE(inside(mesh, Vector3d(0.5, 0.5, 1 + near)));
+  }
+}
+
+TEST(Distance, ToFaceEdgeAndCorner) {
+  const TriangleMesh mesh = cube();
+  EXPECT_NEAR(distance(mesh, Vector3d(0.3, 0.6, 1.25)), 0.25, 1e-15);
+  EXPECT_NEAR(distance(mesh, Vector3d(0.3, 0.6, 0.9)), 0.1, 1e-15);
+  EXPECT_NEAR(distance(mesh, Vector3d(1.3, 1.4, 0.5)), 0.5, 1e-15);
+  EXPECT_NEAR(distance(mesh, Vector3d(-1, -2, -2)), 3.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace wavetank

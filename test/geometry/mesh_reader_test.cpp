@@ -1,0 +1,154 @@
+#include <cstdlib>
+
+#include "geometry_fixture.h"
+
+namespace wavetank {
+namespace {
+
+const Box unit_cube{Vector3d::Zero(), Vector3d::Ones()};
+
+class MeshReader : public GeometryTest {};
+
+TriangleMesh read(const MeshSource& from) { return read_mesh(from, "", ResourceResolver()); }
+
+/// A Collada cube face: one triangle, with the given unit and axis, under a node that moves it.
+std::string collada(const std::string& unit, const std::string& up_axis, const std::string& matrix) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit name="u" meter=")" +
+         unit + R"("/><up_axis>)" + up_axis +
+         R"(</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 0 2</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1">
+<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>
+<visual_scene id="s"><node id="n"><matrix>)" +
+         matrix +
+         R"(</matrix><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshReader, ReadsStlAndMergesItsVertices) {
+  const TriangleMesh box = read(source(repository_mesh("spheric2_box.stl")));
+  EXPECT_EQ(box.name, "spheric2_box.stl");
+  EXPECT_EQ(box.triangles.size(), 12u);
+  EXPECT_EQ(box.vertices.size(), 8u);
+  EXPECT_NEAR(box.signed_volume(), 0.161 * 0.403 * 0.161, 1e-8);
+  EXPECT_TRUE(box.bounding_box().min.isApprox(Vector3d(0.6635, 0.2985, 0), 1e-6));
+}
+
+TEST_F(MeshReader, ReadsPlyAndOff) {
+  const std::string ply =
+      write("t.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n");
+  EXPECT_NEAR(surface_area(read(source(ply))), 3.0, 1e-12);
+  const std::string off = write("t.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n");
+  EXPECT_NEAR(surface_area(read(source(off))), 3.0, 1e-12);
+}
+
+TEST_F(MeshReader, ScalesThenRotatesThenTranslates) {
+  MeshSource from = source(write("box.obj", box_mesh({Vector3d::Zero(), Vector3d(1000, 2000, 3000)}, false, "")));
+  from.scale = 1e-3;
+  from.rotation = Vector3d(0, 0, M_PI / 2);  // x to y, y to −x
+  from.translation = Vector3d(10, 20, 30);
+  const Box box = read(from).bounding_box();
+  EXPECT_TRUE(box.min.isApprox(Vector3d(8, 20, 30), 1e-9)) << box.min.transpose();
+  EXPECT_TRUE(box.max.isApprox(Vector3d(10, 21, 33), 1e-9)) << box.max.transpose();
+}
+
+TEST_F(MeshReader, RotatesAboutFixedAxesRollFirst) {
+  MeshSource from = source(write("box.obj", box_mesh({Vector3d::Zero(), Vector3d(1, 2, 3)}, false, "")));
+  from.rotation = Vector3d(M_PI / 2, 0, M_PI / 2);  // roll: y to z, z to −y; then yaw: x to y, −y to x
+  const Box box = read(from).bounding_box();
+  EXPECT_TRUE((box.min - Vector3d(0, 0, 0)).norm() < 1e-9) << box.min.transpose();
+  EXPECT_TRUE((box.max - Vector3d(3, 1, 2)).norm() < 1e-9) << box.max.transpose();
+}
+
+TEST_F(MeshReader, JoinsSubmeshes) {
+  std::string obj;
+  for (const char* name : {"left", "right"}) {
+    obj += std::string("o ") + name + "\nv " + (name[0] == 'l' ? "0 0 0\nv 1 0 0\nv 1 1 0\n" : "0 0 0\nv 1 1 0\nv 0 1 0\n");
+  }
+  obj += "o left\nf 1 2 3\no right\nf 4 5 6\n";
+  const TriangleMesh mesh = read(source(write("two.obj", obj)));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.vertices.size(), 4u) << "the shared corners must be one vertex each";
+  EXPECT_NEAR(surface_area(mesh), 1.0, 1e-12);
+}
+
+TEST_F(MeshReader, AppliesColladaUnitAndNodesButKeepsItsAxes) {
+  const std::string moved = "1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1";
+  for (const char* axis : {"Z_UP", "Y_UP"}) {
+    const Box box = read(source(write("t.dae", collada("0.01", axis, moved)))).bounding_box();
+    EXPECT_TRUE((box.min - Vector3d(0.05, 0.06, 0.07)).norm() < 1e-6) << axis << ": " << box.min.transpose();
+    EXPECT_TRUE((box.max - Vector3d(0.06, 0.06, 0.09)).norm() < 1e-6) << axis << ": " << box.max.transpose();
+  }
+}
+
+TEST_F(MeshReader, DropsDuplicatesAndZeroAreas) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 2 3 1\nf 3 2 1\nf 1 2 4\nf 1 1 2\n";
+  const TriangleMesh mesh = read(source(write("t.obj", obj)));
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+}
+
+TEST_F(MeshReader, FindsFilesByEveryKindOfAddress) {
+  const std::string path = write("a box.obj", box_mesh(unit_cube, false, ""));
+  const auto resolve = [&](const std::string& uri) {
+    return uri == "package://tank/a box.obj" ? "file://" + path : std::string("/nowhere.obj");
+  };
+  EXPECT_EQ(read_mesh(source(path), "", resolve).triangles.size(), 12u);
+  EXPECT_EQ(read_mesh(source("file://" + (directory / "a%20box.obj").string()), "", resolve).triangles.size(), 12u);
+  EXPECT_EQ(read_mesh(source("a box.obj"), directory.string(), resolve).triangles.size(), 12u);
+  EXPECT_EQ(read_mesh(source("package://tank/a box.obj"), "", resolve).triangles.size(), 12u);
+  EXPECT_ERROR(read_mesh(source("package://other/a.obj"), "", resolve), "'/nowhere.obj' does not exist");
+  EXPECT_ERROR(read(source("package://tank/a box.obj")), "nothing here resolves");
+  EXPECT_ERROR(read(source("a box.obj")), "relative path, which needs a case file");
+  EXPECT_ERROR(read(source("")), "empty path");
+}
+
+TEST_F(MeshReader, RefusesWhatIsNoMesh) {
+  EXPECT_ERROR(read(source((directory / "none.stl").string())), "does not exist");
+  EXPECT_ERROR(read(source(directory.string())), "not a regular file");
+  EXPECT_ERROR(read(source(write("empty.stl", ""))), "is empty");
+  EXPECT_ERROR(read(source(write("text.dae", "this is no mesh"))), "cannot be read");
+  EXPECT_ERROR(read(source(write("tank.xyz123", "0 0 0"))), "cannot be read");
+  EXPECT_ERROR(read(source(write("points.obj", "v 0 0 0\nv 1 0 0\n"))), "points.obj");
+  EXPECT_ERROR(read(source(write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"))), "zero area");
+  EXPECT_ERROR(read(source(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"))), "nan.obj");
+}
+
+TEST_F(MeshReader, RefusesATruncatedBinaryStl) {
+  std::ifstream whole(repository_mesh("spheric2_box.stl"), std::ios::binary);
+  std::stringstream bytes;
+  bytes << whole.rdbuf();
+  EXPECT_ERROR(read(source(write("cut.stl", bytes.str().substr(0, 300)))), "cannot be read");
+}
+
+TEST_F(MeshReader, RefusesAStlWithInfiniteVertices) {
+  std::ifstream whole(repository_mesh("spheric2_box.stl"), std::ios::binary);
+  std::stringstream bytes;
+  bytes << whole.rdbuf();
+  std::string text = bytes.str();
+  const char infinity[4] = {0, 0, static_cast<char>(0x80), 0x7f};
+  text.replace(84 + 12, 4, infinity, 4);
+  EXPECT_ERROR(read(source(write("infinite.stl", text))), "infinite.stl");
+}
+
+TEST_F(MeshReader, RefusesAScaleThatOverflows) {
+  MeshSource from = source(repository_mesh("spheric2_box.stl"));
+  from.scale = std::numeric_limits<double>::infinity();
+  EXPECT_ERROR(read(from), "not finite");
+}
+
+TEST_F(MeshReader, CommittedMeshesAreTheScripts) {
+  const std::string python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+  const std::string command = python + " '" + WAVETANK_SOURCE_DIRECTORY + "/scripts/make_meshes.py' '" + directory.string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  for (const char* name : {"spheric2_tank.stl", "spheric2_box.stl", "cylinder_tank.stl", "sphere.stl", "l_tank.stl"}) {
+    std::stringstream made, committed;
+    made << std::ifstream(directory / name, std::ios::binary).rdbuf();
+    committed << std::ifstream(repository_mesh(name), std::ios::binary).rdbuf();
+    EXPECT_GT(made.str().size(), 84u) << name;
+    EXPECT_TRUE(made.str() == committed.str()) << name << " differs from what scripts/make_meshes.py writes";
+  }
+}
+
+}  // namespace
+}  // namespace wavetank
