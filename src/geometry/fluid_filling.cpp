@@ -95,11 +95,21 @@ std::string side_beyond(const Basin& basin, const Box& box, double tolerance) {
   return "";
 }
 
+/// The middle cell of a lattice, or one beside it where a wall passes through the middle.
+Cell free_middle(const Basin& basin, double spacing, const FilledRegion& region) {
+  const Cell middle = {region.count[0] / 2, region.count[1] / 2, region.count[2] / 2};
+  for (int offset = 0; offset < 27; ++offset) {
+    const Cell cell = {middle[0] - (offset % 3 + 1) % 3 + 1, middle[1] - (offset / 3 % 3 + 1) % 3 + 1,
+                       middle[2] - (offset / 9 + 1) % 3 + 1};
+    if (is_inside(region, cell) && !basin.grid->nearest(centre_of(region, cell), 0.05 * spacing)) return cell;
+  }
+  return middle;
+}
+
 /// Every cell must be joined to the box's middle by open space inside the tank, around its baffles if need be. Bodies do not count.
 void check_within_tank(const Basin& basin, double spacing, const FilledRegion& region) {
-  const Cell middle = {region.count[0] / 2, region.count[1] / 2, region.count[2] / 2};
   OpenSpace space(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::tank);
-  space.flood({centre_of(region, middle)});
+  space.flood({centre_of(region, free_middle(basin, spacing, region))});
   std::vector<char> joined(region.filled.size(), 0);
   std::vector<std::size_t> queue;
   for (std::size_t c = 0; c < joined.size(); ++c) {

@@ -89,17 +89,21 @@ TEST(CheckClosed, KeepsACavity) {
   }
 }
 
-/// Two tetrahedra tip to tip whose surface crosses itself: one of them comes out inside out, like a glove half turned.
+/// A prism over a figure of eight, whose lobes differ: where it crosses itself the smaller one comes out inside out.
 TEST(CheckClosed, RefusesASurfaceThatTurnsInsideOut) {
-  TriangleMesh mesh = cube();
-  for (int v = 4; v < 8; ++v) {  // twist the top by half a turn: the sides cross each other
-    mesh.vertices[v].x() = 1 - mesh.vertices[v].x();
-    mesh.vertices[v].y() = 1 - mesh.vertices[v].y();
+  const double eight[4][2] = {{0, 0}, {3, 1}, {3, 0}, {0, 2}};  // (x, z); the first and third sides cross
+  TriangleMesh mesh;
+  mesh.name = "eight";
+  for (const double y : {0.0, 1.0}) {
+    for (const auto& p : eight) mesh.vertices.emplace_back(p[0], y, p[1]);
   }
-  mesh.vertices[4].z() = mesh.vertices[5].z() = mesh.vertices[6].z() = mesh.vertices[7].z() = 0.4;
-  mesh.name = "glove";
-  for (int v = 4; v < 8; ++v) mesh.vertices[v].x() = 1 - mesh.vertices[v].x();  // now only y is exchanged: a bow tie in the y–z plane
-  EXPECT_ERROR(check_closed(mesh), "'glove'");
+  for (int k = 0; k < 4; ++k) {
+    const int n = (k + 1) % 4;
+    mesh.triangles.emplace_back(k, n, n + 4);
+    mesh.triangles.emplace_back(k, n + 4, k + 4);
+  }
+  mesh.triangles.insert(mesh.triangles.end(), {Vector3i(0, 2, 1), Vector3i(0, 3, 2), Vector3i(4, 5, 6), Vector3i(4, 6, 7)});
+  EXPECT_ERROR(check_closed(mesh), "'eight' is turned inside out about");
 }
 
 TEST(CheckClosed, RefusesAMoebiusBandOfABody) {

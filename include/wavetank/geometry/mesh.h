@@ -27,6 +27,8 @@ struct TriangleMesh {
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
 /// Reads every submesh of the file with its node transforms, scales, rotates and translates it, merges equal vertices, drops exact duplicates.
+/// "Equal" is within 1e-6 of the mesh's size, the resolution of float32 files. A Collada file's unit is applied, its up-axis is not (as in rviz): turn a
+/// y-up file by rotation (π/2, 0, 0).
 /// Throws Error for a missing, unreadable, corrupt or empty file, non-finite vertices, or a file without triangles.
 TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
 
