@@ -85,7 +85,7 @@ void Program::State::build_from_source(const SourceFiles& files, const std::stri
   if (code == CL_INVALID_BUILD_OPTIONS) throw Error(info.name + " does not take the build options \"" + options + "\" for " + main);
   if (code != CL_BUILD_PROGRAM_FAILURE && log.empty()) check(code, "clBuildProgram", info, "compiling " + main);
   throw Error("the compiler of " + info.name + " refused " + main + " with the options \"" + options +
-              "\": " + explain_build_log(log, files));
+              "\": " + explain_build_log(log, files, source));
 }
 
 std::vector<unsigned char> Program::State::binary() const {

@@ -1,6 +1,7 @@
 #include "source.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -105,6 +106,23 @@ std::string source_line(const SourceFiles& files, const std::string& file, int n
 
 std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
+/// Turns a line number of the resolved text into a file and its line, by the #line directives before it.
+void place_in_files(const std::string& resolved, CompilerError& error) {
+  std::istringstream lines(resolved);
+  std::string line, file;
+  int line_in_file = 0;
+  for (int number = 1; number <= error.line && std::getline(lines, line); ++number) {
+    ++line_in_file;
+    const std::string command = directive(line);
+    const auto quote = command.find('"');
+    if (!starts_with(command, "line ") || quote == std::string::npos) continue;
+    file = command.substr(quote + 1, command.rfind('"') - quote - 1);
+    line_in_file = std::atoi(command.c_str() + std::string("line ").size()) - 1;
+  }
+  error.file = file;
+  error.line = line_in_file;
+}
+
 std::string first_lines(const std::string& text, int count) {
   std::istringstream lines(text);
   std::string line, first;
@@ -123,7 +141,7 @@ std::string resolve_includes(const SourceFiles& files, const std::string& main) 
   return resolver.text();
 }
 
-std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files) {
+std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files, const std::string& resolved) {
   // FILE:LINE:COLUMN: error: MESSAGE (clang and what grew from it), "FILE", line LINE: error: MESSAGE, and pocl's error: FILE:LINE:COLUMN:
   // MESSAGE
   static const std::regex place_first("^\"?([^:\"]+)\"?(?::|, line )([0-9]+)(?::[0-9]+)?: *(?:fatal |catastrophic )?error: *(.*)$");
@@ -136,18 +154,16 @@ std::vector<CompilerError> compiler_errors(const std::string& log, const SourceF
     if (line.size() > 2000 || !(std::regex_match(line, match, place_first) || std::regex_match(line, match, place_last))) continue;
     CompilerError error;
     error.message = match[3];
-    const std::string name = base_name(match[1]);
-    if (files.count(name) != 0) {
-      error.file = name;
-      error.line = std::stoi(match[2].str().substr(0, 9));
-    }
+    error.file = base_name(match[1]);
+    error.line = std::stoi(match[2].str().substr(0, 9));
+    if (files.count(error.file) == 0) place_in_files(resolved, error);
     errors.push_back(error);
   }
   return errors;
 }
 
-std::string explain_build_log(const std::string& log, const SourceFiles& files) {
-  const auto errors = compiler_errors(log, files);
+std::string explain_build_log(const std::string& log, const SourceFiles& files, const std::string& resolved) {
+  const auto errors = compiler_errors(log, files, resolved);
   if (errors.empty()) {
     const std::string text = first_lines(log, unreadable_log_lines);
     return text.empty() ? "the compiler says nothing about why" : text;

@@ -18,11 +18,11 @@ struct CompilerError {
   std::string message;  ///< what the compiler says, without the place
 };
 
-/// The errors of the log, in its order.
-std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files);
+/// The errors of the log, in its order. `resolved` is the text that was compiled: some drivers overlook #line and count its own lines.
+std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files, const std::string& resolved);
 
 /// One readable text of what the compiler refused: the first errors, each with file, line and the source line itself. A log that is not
 /// understood is given as it is, shortened.
-std::string explain_build_log(const std::string& log, const SourceFiles& files);
+std::string explain_build_log(const std::string& log, const SourceFiles& files, const std::string& resolved);
 
 }  // namespace wavetank::compute

@@ -44,8 +44,8 @@ TEST(CompilerErrors, AreReadInTheFormsThatDriversUse) {
       "error: sweep.cl:1:1: unknown type name 'one'\n"
       "/usr/src/sweep.cl:1:1: fatal error: unknown type name 'one'\n"
       "\"sweep.cl\", line 1: error: identifier \"one\" is undefined\n"
-      "other.cl:7:1: error: elsewhere\n",
-      files);
+      "input.cl:5:1: error: elsewhere\n",
+      files, "#line 1 \"main.cl\"\n#line 1 \"sweep.cl\"\none\n#line 8 \"main.cl\"\nafter\n");
   ASSERT_EQ(errors.size(), 5u);
   EXPECT_EQ(errors[0].file, "sweep.cl");
   EXPECT_EQ(errors[0].line, 2);
@@ -55,14 +55,15 @@ TEST(CompilerErrors, AreReadInTheFormsThatDriversUse) {
   EXPECT_EQ(errors[2].file, "sweep.cl");
   EXPECT_EQ(errors[2].line, 1);
   EXPECT_EQ(errors[3].message, "identifier \"one\" is undefined");
-  EXPECT_EQ(errors[4].file, "");
+  EXPECT_EQ(errors[4].file, "main.cl");
+  EXPECT_EQ(errors[4].line, 8);
 }
 
 TEST(ExplainBuildLog, QuotesTheFirstErrorsOnly) {
   const SourceFiles files{{"sweep.cl", "one\n  two = three;\n"}};
   std::string log;
   for (int i = 0; i < 9; ++i) log += "sweep.cl:2:9: error: number " + std::to_string(i) + "\n  two = three;\n        ^\n";
-  const std::string text = explain_build_log(log, files);
+  const std::string text = explain_build_log(log, files, "");
   EXPECT_TRUE(contains(text, "sweep.cl:2: number 0\n    two = three;\n")) << text;
   EXPECT_FALSE(contains(text, "number 3")) << text;
   EXPECT_TRUE(contains(text, "and 6 more")) << text;
@@ -71,10 +72,10 @@ TEST(ExplainBuildLog, QuotesTheFirstErrorsOnly) {
 TEST(ExplainBuildLog, GivesAnUnknownFormAsItIs) {
   std::string log;
   for (int i = 0; i < 99; ++i) log += "ptxas trouble " + std::to_string(i) + "\n";
-  const std::string text = explain_build_log(log, {});
+  const std::string text = explain_build_log(log, {}, "");
   EXPECT_TRUE(contains(text, "ptxas trouble 0\n")) << text;
   EXPECT_FALSE(contains(text, "ptxas trouble 50")) << text;
-  EXPECT_FALSE(explain_build_log("", {}).empty());
+  EXPECT_FALSE(explain_build_log("", {}, "").empty());
 }
 
 }  // namespace
