@@ -7,7 +7,7 @@ foreach(library ${rooms})
   foreach(source ${sources})
     get_filename_component(name ${source} NAME_WE)
     catkin_add_gtest(${room}_${name} ${source} TIMEOUT 600)
-    target_link_libraries(${room}_${name} ${library})
+    target_link_libraries(${room}_${name} ${library} ${GTEST_MAIN_LIBRARIES})
     target_compile_definitions(${room}_${name} PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
     if(WAVETANK_STANDALONE)
       set_target_properties(${room}_${name} PROPERTIES EXCLUDE_FROM_ALL FALSE)  # so that a plain build has them
