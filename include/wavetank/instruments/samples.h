@@ -19,15 +19,15 @@ struct LevelSample {
 
 /// Of the fluid on a body: about the body's centre of volume, for the tank about the origin. 2-D: per metre of width.
 struct Wrench {
-  Vector3d pressure_force = Vector3d::Zero();    ///< N
-  Vector3d viscous_force = Vector3d::Zero();     ///< N
-  Vector3d pressure_torque = Vector3d::Zero();   ///< N·m
-  Vector3d viscous_torque = Vector3d::Zero();    ///< N·m
+  Vector3d pressure_force = Vector3d::Zero();   ///< N
+  Vector3d viscous_force = Vector3d::Zero();    ///< N
+  Vector3d pressure_torque = Vector3d::Zero();  ///< N·m
+  Vector3d viscous_torque = Vector3d::Zero();   ///< N·m
 };
 
 struct WrenchSample {
-  double time = 0;                ///< s
-  std::vector<Wrench> wrenches;   ///< 0 the tank, 1 + i body i
+  double time = 0;               ///< s
+  std::vector<Wrench> wrenches;  ///< 0 the tank, 1 + i body i
 };
 
 struct EnergySample {

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "wavetank/instruments/sample_clock.h"
+#include "wavetank/instruments/samples.h"
+#include "wavetank/instruments/wave_gauges.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// All instruments of a case, each at its own rate of simulated time whatever Δt is: a reading is taken at the ends of the step that
+/// contains the sample's time and interpolated linearly, so instruments never change the steps.
+class Recorder {
+ public:
+  Recorder(const Case& settled_case, const Layout& layout, const Solver& solver);
+
+  /// The samples at time 0.
+  void start(Solver& solver);
+  /// Before the step from `time` to `next_time`, and after it.
+  void before_step(Solver& solver, double time, double next_time);
+  void after_step(Solver& solver, double time, double next_time);
+
+  Samples take();
+
+  static constexpr std::size_t instrument_count = 4;
+  std::array<std::uint64_t, instrument_count> clock_indices() const;
+  void set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices);
+
+ private:
+  using Values = std::vector<double>;
+  struct Instrument {
+    SampleClock clock;
+    std::function<Values(Solver&)> read;
+    std::function<void(double time, const Values&)> record;
+    Values before;
+    bool due = false;  ///< its next sample lies in the present step
+  };
+
+  void add_pressures(const Case& scene, const Solver& solver);
+  void add_levels(const Case& scene, const Layout& layout, const Solver& solver);
+  void add_wrenches(const Case& scene);
+  void add_energies(const Case& scene);
+
+  std::shared_ptr<PointSet> probes_;
+  std::shared_ptr<WaveGauges> gauges_;
+  std::vector<Instrument> instruments_;
+  Samples samples_;
+};
+
+}  // namespace wavetank

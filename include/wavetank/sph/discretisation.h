@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "wavetank/geometry/layout.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+/// What the solver derives from a case and its layout once, in double precision.
+struct Discretisation {
+  int dimensions = 3;
+  double spacing = 0;                                ///< Δx, m
+  double smoothing_length = 0;                       ///< h = R/2, m
+  double support = 0;                                ///< R, m
+  double sound_speed = 0;                            ///< c₀, m/s
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the device's coordinates, m: kernels never see large ones
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();   ///< the watchdog's box, m
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  int cells[3] = {0, 0, 0};  ///< of the neighbour grid, border included (2-D: y 1)
+  double acoustic_time = 0;  ///< bounds on Δt at rest, s
+  double viscous_time = 0;
+  double least_time_step = 0;  ///< a Δt below this has collapsed, s
+};
+
+/// The greatest speed that a case is expected to reach: of a free fall from the fluid's highest level to the tank's floor, m/s.
+double expected_speed(const Case& checked, const Layout& layout);
+
+/// The case with its automatic values settled: sound speed, spacing, support.
+Case settled(const Case& checked, const Layout& layout);
+
+/// From a settled case. Throws Error if the neighbour grid would be larger than a device can index.
+Discretisation discretise(const Case& settled_case, const Layout& layout);
+
+}  // namespace wavetank

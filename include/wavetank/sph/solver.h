@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wavetank/compute/device.h"
+#include "wavetank/geometry/layout.h"
+#include "wavetank/scene/case.h"
+#include "wavetank/sph/discretisation.h"
+
+namespace wavetank {
+
+/// What one step reports to the host: the only thing that leaves the device in a step.
+struct StepReport {
+  double time_step = 0;              ///< s, of the next step
+  double greatest_speed = 0;         ///< m/s
+  double greatest_acceleration = 0;  ///< m/s²
+  int not_finite = 0;                ///< particles with a value that is not a number
+  int outside = 0;                   ///< particles outside the watchdog's box
+  int too_fast = 0;                  ///< particles faster than c₀/2
+  int guard_hits = 0;
+  int shepard_bounded = 0;
+  std::int64_t offender = -1;  ///< index of the first offending particle, or -1
+  std::uint32_t offender_id = 0;
+  Eigen::Vector3d offender_position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
+  Eigen::Vector3d offender_velocity = Eigen::Vector3d::Zero();  ///< m/s
+};
+
+struct PackingReport {
+  int iterations = 0;
+  double first_error = 0;  ///< root mean square of h|E| on the lattice
+  double last_error = 0;   ///< and packed
+};
+
+/// The fluid at a point.
+struct PointValue {
+  double pressure = 0;  ///< Pa, gauge; 0 where dry
+  double filling = 0;   ///< Σ W V: 1 inside the fluid, 1/2 on its free surface
+  double shepard = 0;   ///< γ at the point
+};
+
+/// Points kept on the device, made once by the solver that evaluates them.
+class PointSet {
+ public:
+  virtual ~PointSet() = default;
+};
+
+struct FluidEnergies {
+  double kinetic = 0;      ///< J (2-D: J/m)
+  double potential = 0;    ///< J, about z of the tank's floor
+  double compression = 0;  ///< J
+  double mass = 0;         ///< kg (2-D: kg/m)
+};
+
+/// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.
+using WallWrench = std::array<Eigen::Vector3d, 4>;
+
+/// Particle state on the host, in the device's order. Positions in the case's coordinates.
+struct FluidState {
+  std::vector<std::uint32_t> id;
+  std::vector<Eigen::Vector3d> position;  ///< m
+  std::vector<Eigen::Vector3d> velocity;  ///< m/s
+  std::vector<double> pressure;           ///< Pa
+  std::vector<double> compression;        ///< ρ/ρ₀ − 1
+  std::vector<double> mass;               ///< kg (2-D: kg/m)
+  std::vector<double> shepard;            ///< γ
+  std::vector<std::uint8_t> surface;      ///< 1 on the free surface
+};
+
+/// The SPH solver of one fluid between walls, on one device.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// Iterates the positions towards Σ∇WV + Σ n∫W dS = 0 between the walls and the lid (numerics: packing), then keeps them.
+  virtual PackingReport pack(int iterations, const std::function<void(double fraction)>& progress) = 0;
+  /// Hydrostatic pressure, at rest, from the present positions; the first Δt.
+  virtual StepReport start() = 0;
+  /// One time step of the case's integrator.
+  virtual StepReport advance() = 0;
+
+  virtual std::size_t particle_count() const = 0;
+  virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;
+  virtual std::vector<PointValue> evaluate(const PointSet& points) = 0;
+  /// One wrench an owner (0 the tank, 1 + i body i), about `centres` as given to make_solver.
+  virtual std::vector<WallWrench> wrenches() = 0;
+  virtual FluidEnergies energies() = 0;
+  virtual FluidState download() = 0;
+  /// The exact state, as bytes of this solver's precision: what a restart needs.
+  virtual std::vector<char> save() const = 0;
+  /// Throws Error if the bytes are not those of a state of this size.
+  virtual void restore(const std::vector<char>& bytes) = 0;
+  /// Bytes on the device.
+  virtual std::size_t device_memory() const = 0;
+};
+
+/// `centres`: of each owner of walls, that torques are taken about, m. The case must be settled.
+std::unique_ptr<Solver> make_solver(const compute::Device& device, const Case& settled_case, const Layout& layout,
+                                    const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres);
+
+}  // namespace wavetank

@@ -1,0 +1,107 @@
+#include "wavetank/instruments/wave_gauges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wavetank {
+namespace {
+
+/// Heights at which the vertical line through (x, y) meets the mesh.
+std::vector<double> crossings(const TriangleMesh& mesh, double x, double y) {
+  std::vector<double> heights;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
+    if (std::abs(area) < 1e-14) continue;  // upright: the line lies in it or misses it
+    const double beta = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
+    const double gamma = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
+    if (beta < -1e-9 || gamma < -1e-9 || beta + gamma > 1.0 + 1e-9) continue;
+    heights.push_back(a.z() + beta * (b.z() - a.z()) + gamma * (c.z() - a.z()));
+  }
+  return heights;
+}
+
+/// The floor under a gauge: the lowest wall of the tank that bounds the open space from below. A tank with thick walls has its outer skin
+/// below that: a sampled wall element marks the wetted one.
+double floor_height(const Layout& layout, double x, double y) {
+  double floor = layout.domain.min.z();
+  double nearest = std::numeric_limits<double>::max();
+  std::vector<double> heights;
+  if (!layout.meshes.empty()) heights = crossings(layout.meshes[0], x, y);
+  for (const WallElement& wall : layout.walls) {
+    if (wall.owner != 0 || wall.normal.z() > -0.3) continue;
+    const double away = std::hypot(wall.centre.x() - x, wall.centre.y() - y);
+    if (away < nearest) {
+      nearest = away;
+      floor = wall.centre.z();
+    }
+  }
+  // the mesh's own height there is exact where an element's centre beside the line, on a slope, is not
+  double best = std::numeric_limits<double>::max(), exact = floor;
+  for (const double height : heights)
+    if (std::abs(height - floor) < best) {
+      best = std::abs(height - floor);
+      exact = height;
+    }
+  return best < 2.0 * layout.spacing ? exact : floor;
+}
+
+bool inside_body(const Case& scene, const Layout& layout, const Vector3d& point) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (const Box* box = std::get_if<Box>(&scene.bodies[b].shape)) {
+      const bool across = scene.dimensions == 2 || (point.y() > box->min.y() && point.y() < box->max.y());
+      if (across && point.x() > box->min.x() && point.x() < box->max.x() && point.z() > box->min.z() && point.z() < box->max.z())
+        return true;
+    } else if (inside(layout.meshes[1 + b], point)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& solver) : interval_(0.25 * layout.spacing) {
+  std::vector<Vector3d> points;
+  for (const WaveGaugeCase& gauge : scene.instruments.wave_gauges) {
+    Line line;
+    line.begin = points.size();
+    const double y = scene.dimensions == 2 ? 0.0 : gauge.position.y();
+    line.floor = floor_height(layout, gauge.position.x(), y);
+    for (double z = line.floor; z <= layout.domain.max.z(); z += interval_) {
+      points.emplace_back(gauge.position.x(), y, z);
+      open_.push_back(!inside_body(scene, layout, points.back()));
+    }
+    line.end = points.size();
+    lines_.push_back(line);
+  }
+  points_ = solver.make_points(points);
+}
+
+std::vector<double> WaveGauges::read(Solver& solver) const {
+  std::vector<double> levels;
+  if (lines_.empty()) return levels;
+  const std::vector<PointValue> values = solver.evaluate(*points_);
+  // above 0 in the fluid, below 0 in the air
+  const auto wetness = [&](std::size_t k) {
+    if (!open_[k] || values[k].shepard < 0.1) return -0.5;
+    return values[k].filling / std::min(values[k].shepard, 1.0) - 0.5;
+  };
+  for (const Line& line : lines_) {
+    double wet = 0;
+    for (std::size_t k = line.begin; k + 1 < line.end; ++k) {
+      const double lower = wetness(k), upper = wetness(k + 1);
+      if (lower > 0 && upper > 0)
+        wet += interval_;
+      else if (lower > 0)
+        wet += interval_ * lower / (lower - upper);
+      else if (upper > 0)
+        wet += interval_ * upper / (upper - lower);
+    }
+    levels.push_back(line.floor + wet);
+  }
+  return levels;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,312 @@
+#include "wavetank/simulation/simulation.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "snapshot.h"
+#include "wavetank/common/log.h"
+#include "wavetank/common/version.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/instruments/recorder.h"
+#include "wavetank/scene/case_reader.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+namespace {
+
+std::string number(double value, const char* format = "%.6g") {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string point(const Vector3d& p) { return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")"; }
+
+/// The centre of a closed mesh's volume; of its bounding box where it encloses none.
+Vector3d centre_of_volume(const TriangleMesh& mesh) {
+  Vector3d sum = Vector3d::Zero();
+  double volume = 0;
+  const Box bounds = mesh.bounding_box();
+  const Vector3d middle = 0.5 * (bounds.min + bounds.max);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle, c = mesh.corner(t, 2) - middle;
+    const double part = a.dot(b.cross(c)) / 6.0;
+    volume += part;
+    sum += part * 0.25 * (a + b + c);
+  }
+  return std::abs(volume) > 1e-30 ? Vector3d(middle + sum / volume) : middle;
+}
+
+/// Where torques are taken about: the case's origin for the tank, the centre of volume for a body.
+std::vector<Vector3d> torque_centres(const Case& scene, const Layout& layout) {
+  std::vector<Vector3d> centres{Vector3d::Zero()};
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (const Box* box = std::get_if<Box>(&scene.bodies[b].shape))
+      centres.emplace_back(0.5 * (box->min + box->max));
+    else
+      centres.push_back(centre_of_volume(layout.meshes[1 + b]));
+    if (scene.dimensions == 2) centres.back().y() = 0;
+  }
+  return centres;
+}
+
+/// The case as far as it decides the flow and the samples: what a snapshot must agree on.
+std::string flow_of(Case scene) {
+  scene.title.clear();
+  scene.duration = 1;
+  scene.device = "auto";
+  scene.publishing = PublishingCase{};
+  return write_case(scene);
+}
+
+}  // namespace
+
+struct Simulation::Parts {
+  Parts(const Case& checked, SimulationOptions given)
+      : options(std::move(given)),
+        layout(laid_out(checked)),
+        scene(settled(checked, layout)),
+        discretisation(discretise(scene, layout)),
+        device(compute::choose_device(scene.device), options.time_kernels),
+        solver(prepared_solver()),
+        recorder(scene, layout, *solver) {}
+
+  Layout laid_out(const Case& checked) const {
+    progress("laying out", 0.0);
+    Layout result = lay_out(checked, options.resolve);
+    progress("laying out", 1.0);
+    return result;
+  }
+
+  std::unique_ptr<Solver> prepared_solver() const {
+    progress("compiling kernels", 0.0);
+    std::unique_ptr<Solver> result = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
+    progress("compiling kernels", 1.0);
+    return result;
+  }
+
+  void progress(const char* what, double fraction) const {
+    if (options.progress) options.progress(what, fraction);
+  }
+
+  void check(const StepReport& report) const;
+
+  SimulationOptions options;
+  Layout layout;
+  Case scene;
+  Discretisation discretisation;
+  compute::Device device;
+  std::unique_ptr<Solver> solver;
+  Recorder recorder;
+  PackingReport packing;
+  std::vector<char> initial_fluid;
+  double initial_time_step = 0;
+  double time = 0;
+  double time_step = 0;
+  std::uint64_t step = 0;
+  std::uint64_t guard_hits = 0;
+  StepReport report;
+};
+
+/// Throws Violation for a step that the simulation may not go on from.
+void Simulation::Parts::check(const StepReport& r) const {
+  const std::string when = " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops.";
+  if (r.offender >= 0) {
+    std::string what;
+    const auto add = [&](int count, const std::string& text) {
+      if (count > 0) what += (what.empty() ? "" : ", ") + std::to_string(count) + text;
+    };
+    add(r.not_finite, " with values that are not finite");
+    add(r.outside, " outside the tank");
+    add(r.too_fast, " faster than half the speed of sound (" + number(0.5 * discretisation.sound_speed) + " m/s)");
+    throw Violation("particles in violation: " + what + "; the first is particle " + std::to_string(r.offender_id) + " at " +
+                    point(r.offender_position) + " m with velocity " + point(r.offender_velocity) + " m/s," + when);
+  }
+  if (!(r.time_step >= discretisation.least_time_step))
+    throw Violation("the time step collapsed to " + number(r.time_step) + " s (greatest speed " + number(r.greatest_speed) +
+                    " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when);
+}
+
+Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(std::make_unique<Parts>(checked, std::move(options))) {
+  Parts& parts = *parts_;
+  const int iterations = parts.scene.numerics.packing.iterations;
+  parts.packing = parts.solver->pack(iterations, [&](double fraction) { parts.progress("packing", fraction); });
+  parts.report = parts.solver->start();
+  parts.check(parts.report);
+  parts.initial_fluid = parts.solver->save();
+  parts.initial_time_step = parts.report.time_step;
+  parts.time_step = parts.initial_time_step;
+  parts.recorder.start(*parts.solver);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::advance() {
+  Parts& parts = *parts_;
+  const double next_time = parts.time + parts.time_step;
+  parts.recorder.before_step(*parts.solver, parts.time, next_time);
+  parts.report = parts.solver->advance();
+  const double time = std::exchange(parts.time, next_time);
+  ++parts.step;
+  parts.guard_hits += static_cast<std::uint64_t>(parts.report.guard_hits);
+  parts.check(parts.report);
+  parts.time_step = parts.report.time_step;
+  parts.recorder.after_step(*parts.solver, time, next_time);
+}
+
+void Simulation::reset() {
+  Parts& parts = *parts_;
+  parts.solver->restore(parts.initial_fluid);
+  parts.time = 0;
+  parts.time_step = parts.initial_time_step;
+  parts.step = 0;
+  parts.guard_hits = 0;
+  parts.report = StepReport{};
+  parts.report.time_step = parts.initial_time_step;
+  parts.recorder.take();
+  parts.recorder.start(*parts.solver);
+}
+
+void Simulation::save(const std::string& path) const {
+  const Parts& parts = *parts_;
+  Snapshot snapshot;
+  snapshot.version = version();
+  snapshot.device = device_description();
+  snapshot.scene = flow_of(parts.scene);
+  snapshot.time = parts.time;
+  snapshot.time_step = parts.time_step;
+  snapshot.step = parts.step;
+  snapshot.guard_hits = parts.guard_hits;
+  snapshot.clocks = parts.recorder.clock_indices();
+  snapshot.fluid = parts.solver->save();
+  write_snapshot(path, snapshot);
+}
+
+void Simulation::restore(const std::string& path) {
+  Parts& parts = *parts_;
+  const Snapshot snapshot = read_snapshot(path);
+  if (snapshot.scene != flow_of(parts.scene))
+    throw Error("the snapshot " + path +
+                " belongs to another case: everything but title, duration, device and publishing must be the same.");
+  parts.solver->restore(snapshot.fluid);
+  if (snapshot.device != device_description())
+    log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
+  parts.time = snapshot.time;
+  parts.time_step = snapshot.time_step;
+  parts.step = snapshot.step;
+  parts.guard_hits = snapshot.guard_hits;
+  parts.report = StepReport{};
+  parts.report.time_step = snapshot.time_step;
+  parts.recorder.set_clock_indices(snapshot.clocks);
+}
+
+Samples Simulation::take_samples() { return parts_->recorder.take(); }
+
+SolverState Simulation::state() const {
+  const Parts& parts = *parts_;
+  SolverState state;
+  state.time = parts.time;
+  state.step = parts.step;
+  state.time_step = parts.time_step;
+  state.particles = parts.solver->particle_count();
+  state.greatest_speed = parts.report.greatest_speed;
+  state.guard_hits = parts.guard_hits;
+  state.shepard_bounded = static_cast<std::uint64_t>(parts.report.shepard_bounded);
+  return state;
+}
+
+EnergySample Simulation::energies() const {
+  const FluidEnergies energies = parts_->solver->energies();
+  return {parts_->time, energies.kinetic, energies.potential, energies.compression, energies.mass};
+}
+
+namespace {
+
+ParticleCloud cloud_of(const FluidState& fluid, double time, double density, bool surface_only) {
+  ParticleCloud cloud;
+  cloud.time = time;
+  for (std::size_t i = 0; i < fluid.id.size(); ++i) {
+    if (surface_only && fluid.surface[i] == 0) continue;
+    cloud.id.push_back(fluid.id[i]);
+    cloud.position.push_back(fluid.position[i].cast<float>());
+    cloud.velocity.push_back(fluid.velocity[i].cast<float>());
+    cloud.pressure.push_back(static_cast<float>(fluid.pressure[i]));
+    cloud.density.push_back(static_cast<float>(density * (1.0 + fluid.compression[i])));
+    cloud.shepard.push_back(static_cast<float>(fluid.shepard[i]));
+    cloud.surface.push_back(fluid.surface[i]);
+  }
+  return cloud;
+}
+
+}  // namespace
+
+ParticleCloud Simulation::particles() const {
+  return cloud_of(parts_->solver->download(), parts_->time, parts_->scene.fluid.density, false);
+}
+
+ParticleCloud Simulation::free_surface() const {
+  return cloud_of(parts_->solver->download(), parts_->time, parts_->scene.fluid.density, true);
+}
+
+const Case& Simulation::scene() const { return parts_->scene; }
+
+const Layout& Simulation::layout() const { return parts_->layout; }
+
+std::string Simulation::device_description() const { return parts_->device.info().describe(); }
+
+std::string Simulation::summary() const {
+  const Parts& parts = *parts_;
+  const Discretisation& d = parts.discretisation;
+  const std::size_t count = parts.solver->particle_count();
+  std::string text;
+  const auto line = [&](const std::string& key, const std::string& value) { text += key + ": " + value + "\n"; };
+  line("wavetank", version());
+  line("case", parts.scene.title);
+  line("device", device_description());
+  line("particles", std::to_string(count) + ", spacing " + number(d.spacing) + " m, smoothing length " + number(d.smoothing_length) +
+                        " m, support " + number(d.support / d.spacing) + " spacings");
+  line("wall elements", std::to_string(parts.layout.walls.size()));
+  line("sound speed",
+       number(d.sound_speed) + " m/s, expected Mach number " + number(expected_speed(parts.scene, parts.layout) / d.sound_speed, "%.3f"));
+  line("bounds on the time step", "acoustic " + number(d.acoustic_time) + " s at rest, viscous " + number(d.viscous_time) + " s");
+  line("packing", std::to_string(parts.packing.iterations) + " iterations, h|E| from " + number(parts.packing.first_error, "%.3g") +
+                      " to " + number(parts.packing.last_error, "%.3g"));
+  line("device memory", number(static_cast<double>(parts.solver->device_memory()) / 1e6, "%.1f") + " MB, " +
+                            number(static_cast<double>(parts.solver->device_memory()) / static_cast<double>(count), "%.0f") +
+                            " bytes a particle");
+  return text;
+}
+
+std::vector<KernelTime> Simulation::kernel_times() const {
+  std::vector<KernelTime> times;
+  for (const compute::KernelTiming& timing : parts_->device.timings()) times.push_back({timing.kernel, timing.launches, timing.seconds});
+  return times;
+}
+
+Estimate estimate(const Case& checked, const SimulationOptions& options) {
+  const Layout layout = lay_out(checked, options.resolve);
+  const Case scene = settled(checked, layout);
+  const Discretisation discretisation = discretise(scene, layout);
+  const compute::Device device(compute::choose_device(scene.device));
+  const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
+  solver->start();
+  solver->advance();  // the first launch of a kernel may still compile it
+  constexpr int measured_steps = 3;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int k = 0; k < measured_steps; ++k) solver->advance();
+  const double step_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / measured_steps;
+
+  Estimate result;
+  result.particles = layout.particles.size();
+  result.wall_elements = layout.walls.size();
+  result.lid_elements = layout.lid.size();
+  result.device_memory = static_cast<double>(solver->device_memory());
+  result.time_step = std::min(discretisation.acoustic_time, discretisation.viscous_time);
+  result.wall_seconds = scene.duration / result.time_step * step_seconds + 0.5 * scene.numerics.packing.iterations * step_seconds;
+  return result;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,122 @@
+#include "snapshot.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+constexpr char magic[] = "wavetank snapshot 1\n";
+constexpr std::size_t magic_size = sizeof magic - 1;
+
+/// FNV-1a over 64 bits: finds truncation and damage, which is all that is asked of it.
+std::uint64_t checksum(const char* bytes, std::size_t size) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 1099511628211ULL;
+  return hash;
+}
+
+class Writer {
+ public:
+  template <class T>
+  void value(const T& from) {
+    const char* begin = reinterpret_cast<const char*>(&from);
+    bytes.insert(bytes.end(), begin, begin + sizeof from);
+  }
+  template <class Container>
+  void block(const Container& from) {
+    value(static_cast<std::uint64_t>(from.size()));
+    bytes.insert(bytes.end(), from.begin(), from.end());
+  }
+  std::vector<char> bytes;
+};
+
+class Reader {
+ public:
+  Reader(const std::vector<char>& bytes, std::size_t position, std::string damage)
+      : bytes_(bytes), position_(position), damage_(std::move(damage)) {}
+  template <class T>
+  void value(T& to) {
+    need(sizeof to);
+    std::memcpy(&to, bytes_.data() + position_, sizeof to);
+    position_ += sizeof to;
+  }
+  template <class Container>
+  void block(Container& to) {
+    std::uint64_t size = 0;
+    value(size);
+    need(size);
+    to.assign(bytes_.begin() + static_cast<std::ptrdiff_t>(position_), bytes_.begin() + static_cast<std::ptrdiff_t>(position_ + size));
+    position_ += size;
+  }
+
+ private:
+  void need(std::uint64_t size) const {
+    if (size > bytes_.size() - position_) throw Error(damage_);
+  }
+  const std::vector<char>& bytes_;
+  std::size_t position_;
+  std::string damage_;
+};
+
+}  // namespace
+
+void write_snapshot(const std::string& path, const Snapshot& snapshot) {
+  Writer writer;
+  writer.bytes.assign(magic, magic + magic_size);
+  writer.block(snapshot.version);
+  writer.block(snapshot.device);
+  writer.block(snapshot.scene);
+  writer.value(snapshot.time);
+  writer.value(snapshot.time_step);
+  writer.value(snapshot.step);
+  writer.value(snapshot.guard_hits);
+  for (const std::uint64_t clock : snapshot.clocks) writer.value(clock);
+  writer.block(snapshot.fluid);
+  writer.value(checksum(writer.bytes.data(), writer.bytes.size()));
+
+  const std::string temporary = path + ".part";
+  errno = 0;
+  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  stream.write(writer.bytes.data(), static_cast<std::streamsize>(writer.bytes.size()));
+  stream.close();
+  if (!stream || std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "the disk did not take it";
+    std::remove(temporary.c_str());
+    throw Error("cannot write the snapshot " + path + ": " + reason + ".");
+  }
+}
+
+Snapshot read_snapshot(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
+  if (!stream.is_open() || stream.bad()) throw Error("cannot read the snapshot " + path + ": " + std::strerror(errno) + ".");
+  if (bytes.size() < magic_size || std::memcmp(bytes.data(), magic, magic_size) != 0)
+    throw Error(path + " is not a snapshot of this version of wavetank: it does not begin with \"wavetank snapshot 1\".");
+  const std::string damage =
+      "the snapshot " + path + " is truncated or damaged: its checksum does not match its " + std::to_string(bytes.size()) + " bytes.";
+  std::uint64_t stored = 0;
+  if (bytes.size() < magic_size + sizeof stored) throw Error(damage);
+  std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
+  if (stored != checksum(bytes.data(), bytes.size() - sizeof stored)) throw Error(damage);
+
+  Snapshot snapshot;
+  Reader reader(bytes, magic_size, damage);
+  reader.block(snapshot.version);
+  reader.block(snapshot.device);
+  reader.block(snapshot.scene);
+  reader.value(snapshot.time);
+  reader.value(snapshot.time_step);
+  reader.value(snapshot.step);
+  reader.value(snapshot.guard_hits);
+  for (std::uint64_t& clock : snapshot.clocks) reader.value(clock);
+  reader.block(snapshot.fluid);
+  return snapshot;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,65 @@
+#include "wavetank/sph/discretisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+
+double expected_speed(const Case& checked, const Layout& layout) {
+  double top = layout.domain.min.z();
+  for (const double level : layout.levels) top = std::max(top, level);
+  const double drop = std::max(top - layout.domain.min.z(), layout.spacing);
+  return std::sqrt(2.0 * checked.gravity.norm() * drop);
+}
+
+Case settled(const Case& checked, const Layout& layout) {
+  Case result = checked;
+  result.fluid.spacing = layout.spacing;
+  result.fluid.particles.reset();
+  if (!result.numerics.support) result.numerics.support = checked.dimensions == 2 ? 4.0 : 3.0;
+  if (!result.fluid.sound_speed) {
+    const double speed = expected_speed(checked, layout);
+    if (!(speed > 0.0)) throw Error("fluid/sound_speed is auto, but without gravity there is no expected speed: give it in m/s.");
+    result.fluid.sound_speed = 10.0 * speed;
+  }
+  return result;
+}
+
+Discretisation discretise(const Case& settled_case, const Layout& layout) {
+  Discretisation d;
+  d.dimensions = settled_case.dimensions;
+  d.spacing = layout.spacing;
+  d.support = *settled_case.numerics.support * layout.spacing;
+  d.smoothing_length = 0.5 * d.support;
+  d.sound_speed = *settled_case.fluid.sound_speed;
+
+  // sideways and below, half a spacing of tolerance; above an open tank, water may fly as high again as the tank is
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * d.spacing);
+  d.lower = layout.domain.min - margin;
+  d.upper = layout.domain.max + margin;
+  d.upper.z() += std::max(layout.domain.max.z() - layout.domain.min.z(), 2.0 * d.support);
+  d.origin = d.lower;
+  if (d.dimensions == 2) d.origin.y() = 0.0;
+
+  double total = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil((d.upper[axis] - d.lower[axis]) / d.support)) + 2;
+    total *= d.cells[axis];
+  }
+  if (total > std::numeric_limits<int>::max() / 4.0)
+    throw Error("the tank needs " + std::to_string(total) +
+                " grid cells of the support's size, more than can be indexed: raise fluid/spacing.");
+
+  const NumericsCase& numerics = settled_case.numerics;
+  const double kinematic = settled_case.fluid.viscosity / settled_case.fluid.density +
+                           numerics.artificial_viscosity * d.smoothing_length * d.sound_speed / (2.0 * (d.dimensions + 2));
+  d.acoustic_time = numerics.courant * d.smoothing_length / d.sound_speed;
+  d.viscous_time = 0.125 * d.smoothing_length * d.smoothing_length / std::max(kinematic, 1e-30);
+  d.least_time_step = 1e-3 * std::min(d.acoustic_time, d.viscous_time);
+  return d;
+}
+
+}  // namespace wavetank

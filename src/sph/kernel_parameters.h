@@ -1,0 +1,32 @@
+#pragma once
+
+#include "wavetank/scene/case.h"
+#include "wavetank/sph/discretisation.h"
+
+namespace wavetank {
+
+/// The parameter block of the kernels, in the kernels' own declaration; Real is float or double. Lengths relative to the grid's origin.
+template <class Real>
+struct KernelParameters {
+  using real = Real;
+#include "kernels/parameters.cl"
+};
+
+template <class Real>
+KernelParameters<Real> kernel_parameters(const Case& settled_case, const Discretisation& discretisation);
+
+/// Fields of the arrays, as common.cl has them.
+namespace field {
+enum State { x, y, z, u, v, w, compression, pressure, volume, swept, mass = swept, rest_x, rest_y, rest_z, state_count };
+enum Rate { rate_u, rate_v, rate_w, rate_compression, rate_shepard, rate_clearance, rate_count };
+enum Wall { wall_x, wall_y, wall_z, normal_x, normal_y, normal_z, tangent_x, tangent_y, tangent_z, area, wall_count };
+constexpr int load_count = 4;
+constexpr int wrench_count = 12;
+constexpr int watch_count = 2;
+constexpr int energy_count = 4;
+enum Alarm { alarm_not_finite, alarm_outside, alarm_fast, alarm_first, alarm_guard, alarm_shepard, alarm_count };
+constexpr int reduce_chunk = 256;
+constexpr int scan_block = 256;
+}  // namespace field
+
+}  // namespace wavetank

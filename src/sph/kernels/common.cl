@@ -1,0 +1,72 @@
+// Types, the fields of the arrays, and the smoothing kernel. Every field array holds its fields one after the other, `stride` values each.
+#if USE_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double real;
+#define R(x) x
+#else
+typedef float real;
+#define R(x) x##f
+#endif
+
+typedef struct {
+#include "parameters.cl"
+} parameters_t;
+
+// fluid state: the first FIELD_SWEPT are read by the neighbour loop, and exist at the half step too
+#define FIELD_X 0
+#define FIELD_Y 1
+#define FIELD_Z 2
+#define FIELD_U 3
+#define FIELD_V 4
+#define FIELD_W 5
+#define FIELD_COMPRESSION 6   // ρ/ρ₀ − 1
+#define FIELD_PRESSURE 7
+#define FIELD_VOLUME 8        // m/ρ
+#define FIELD_SWEPT 9
+#define FIELD_MASS 9
+#define FIELD_REST_X 10       // what rounding took from the position so far (compensated sum)
+#define FIELD_REST_Y 11
+#define FIELD_REST_Z 12
+#define FIELD_COUNT 13
+
+// rates of change
+#define RATE_U 0
+#define RATE_V 1
+#define RATE_W 2
+#define RATE_COMPRESSION 3
+#define RATE_SHEPARD 4        // γ
+#define RATE_CLEARANCE 5      // distance to the nearest wall element that the particle stands over
+#define RATE_COUNT 6
+
+// wall elements
+#define WALL_X 0
+#define WALL_Y 1
+#define WALL_Z 2
+#define WALL_NORMAL_X 3       // out of the fluid
+#define WALL_NORMAL_Y 4
+#define WALL_NORMAL_Z 5
+#define WALL_TANGENT_X 6
+#define WALL_TANGENT_Y 7
+#define WALL_TANGENT_Z 8
+#define WALL_AREA 9
+#define WALL_COUNT 10
+
+// what the fluid does to a wall element
+#define LOAD_PRESSURE 0
+#define LOAD_SHEAR_X 1        // μ ∂u/∂n, tangential
+#define LOAD_SHEAR_Y 2
+#define LOAD_SHEAR_Z 3
+#define LOAD_COUNT 4
+
+// Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
+inline real kernel_value(__constant const parameters_t* p, real distance) {
+  const real q = distance * p->inverse_smoothing;
+  const real t = fmax(R(0.0), R(1.0) - R(0.5) * q);
+  const real tt = t * t;
+  return p->kernel_scale * tt * tt * (R(1.0) + R(2.0) * q);
+}
+
+inline real kernel_slope(__constant const parameters_t* p, real distance) {
+  const real t = fmax(R(0.0), R(1.0) - R(0.5) * distance * p->inverse_smoothing);
+  return p->slope_scale * t * t * t;
+}

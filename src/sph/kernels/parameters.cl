@@ -1,0 +1,36 @@
+// The members of the parameter block that every kernel reads: included inside a struct by the device code and by the host alike, so that both have
+// one layout. Lengths in m, relative to the grid's origin; 2-D quantities are per metre of width.
+real spacing;             // Δx
+real smoothing_length;    // h
+real inverse_smoothing;   // 1/h
+real support;             // R = 2h
+real support_squared;     // R²
+real kernel_scale;        // α of W = α (1−q/2)⁴ (1+2q)
+real slope_scale;         // 5α/h² of F = 5α/h² (1−q/2)³
+real inverse_cell;        // 1/side of a grid cell; the side is R
+real density;             // ρ₀
+real bulk_modulus;        // ρ₀ c₀²
+real sound_speed;         // c₀
+real gravity_x;
+real gravity_y;
+real gravity_z;
+real hydrostatic_x;       // g/c₀²: the gradient of the hydrostatic compression, linearised
+real hydrostatic_y;
+real hydrostatic_z;
+real viscosity;           // μ, of the wall's shear
+real pair_viscosity;      // α h c₀ ρ₀ + 2(d+2) μ: artificial and Monaghan–Gingold viscosity have one form
+real density_diffusion;   // δ h c₀
+real guard_distance;      // nearer to a wall, a particle loses its approaching normal velocity
+real courant;             // of h/(c₀ + |u|)
+real viscous_time;        // bound on Δt from viscosity, s
+real greatest_speed;      // the watchdog's: c₀/2
+real lower_x;             // the watchdog's box: outside it, a particle is lost
+real lower_y;
+real lower_z;
+real upper_x;
+real upper_y;
+real upper_z;
+int cells_x;              // grid dimensions, a border of one empty cell included in each
+int cells_y;
+int cells_z;
+int cells;                // their product

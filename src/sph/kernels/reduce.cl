@@ -1,0 +1,199 @@
+// Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, then the chunks' results by one. Built without
+// fast-math, and non-finite values are found by their bits all the same.
+#include "common.cl"
+
+#define REDUCE_CHUNK 256
+#define NOBODY 0x7fffffff
+
+#define WATCH_SPEED 0         // greatest |u|²
+#define WATCH_ACCELERATION 1  // greatest |du/dt|²
+#define WATCH_COUNT 2
+
+#define ALARM_NOT_FINITE 0    // how many
+#define ALARM_OUTSIDE 1
+#define ALARM_FAST 2
+#define ALARM_FIRST 3         // the least index of an offender
+#define ALARM_GUARD 4         // guard hits of this step
+#define ALARM_SHEPARD 5       // γ bounded
+#define ALARM_COUNT 6
+
+inline bool not_finite(real value) {
+#if USE_DOUBLE
+  return (as_ulong(value) & 0x7ff0000000000000UL) == 0x7ff0000000000000UL;
+#else
+  return (as_uint(value) & 0x7f800000U) == 0x7f800000U;
+#endif
+}
+
+__kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, int stride,
+                           __global const int* guard_hits, __global real* watches, __global int* alarms) {
+  const int chunk = get_global_id(0);
+  if (chunk * REDUCE_CHUNK >= count) return;
+  real speed = R(0.0), acceleration = R(0.0);
+  int broken = 0, outside = 0, fast = 0, first = NOBODY, guarded = 0, bounded = 0;
+  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+    const real x = state[FIELD_X * stride + i], y = state[FIELD_Y * stride + i], z = state[FIELD_Z * stride + i];
+    const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
+    const real s = state[FIELD_COMPRESSION * stride + i];
+    const real a = rates[RATE_U * stride + i], b = rates[RATE_V * stride + i], c = rates[RATE_W * stride + i];
+    const real shepard = rates[RATE_SHEPARD * stride + i];
+    const real speed2 = u * u + v * v + w * w;
+    const real acceleration2 = a * a + b * b + c * c;
+    int offends = 0;
+    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2) || not_finite(acceleration2) || not_finite(s) || not_finite(shepard)) {
+      ++broken;
+      offends = 1;
+    } else {
+      if (x < p->lower_x || x > p->upper_x || y < p->lower_y || y > p->upper_y || z < p->lower_z || z > p->upper_z) {
+        ++outside;
+        offends = 1;
+      }
+      if (speed2 > p->greatest_speed * p->greatest_speed) {
+        ++fast;
+        offends = 1;
+      }
+      speed = fmax(speed, speed2);
+      acceleration = fmax(acceleration, acceleration2);
+    }
+    if (offends && first == NOBODY) first = i;
+    guarded += guard_hits[i];
+    bounded += shepard > R(1.005) || shepard < R(0.05) ? 1 : 0;
+  }
+  watches[chunk * WATCH_COUNT + WATCH_SPEED] = speed;
+  watches[chunk * WATCH_COUNT + WATCH_ACCELERATION] = acceleration;
+  alarms[chunk * ALARM_COUNT + ALARM_NOT_FINITE] = broken;
+  alarms[chunk * ALARM_COUNT + ALARM_OUTSIDE] = outside;
+  alarms[chunk * ALARM_COUNT + ALARM_FAST] = fast;
+  alarms[chunk * ALARM_COUNT + ALARM_FIRST] = first;
+  alarms[chunk * ALARM_COUNT + ALARM_GUARD] = guarded;
+  alarms[chunk * ALARM_COUNT + ALARM_SHEPARD] = bounded;
+}
+
+// time_step: 0 Δt of the next step, 1 greatest speed, 2 greatest acceleration.
+__kernel void watch_total(__constant const parameters_t* p, int chunks, __global const real* watches, __global const int* alarms,
+                          __global real* time_step, __global int* alarm) {
+  if (get_global_id(0) != 0) return;
+  real speed = R(0.0), acceleration = R(0.0);
+  int sums[ALARM_COUNT] = {0, 0, 0, 0, 0, 0};
+  int first = NOBODY;
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    speed = fmax(speed, watches[chunk * WATCH_COUNT + WATCH_SPEED]);
+    acceleration = fmax(acceleration, watches[chunk * WATCH_COUNT + WATCH_ACCELERATION]);
+    for (int k = 0; k < ALARM_COUNT; ++k) sums[k] += k == ALARM_FIRST ? 0 : alarms[chunk * ALARM_COUNT + k];
+    first = min(first, alarms[chunk * ALARM_COUNT + ALARM_FIRST]);
+  }
+  sums[ALARM_FIRST] = first;
+  for (int k = 0; k < ALARM_COUNT; ++k) alarm[k] = sums[k];
+  speed = sqrt(speed);
+  acceleration = sqrt(acceleration);
+  const real h = p->smoothing_length;
+  real step = p->courant * h / (p->sound_speed + speed);
+  step = fmin(step, p->courant * sqrt(h / fmax(acceleration, R(1.0e-20))));
+  step = fmin(step, p->viscous_time);
+  time_step[0] = step;
+  time_step[1] = speed;
+  time_step[2] = acceleration;
+}
+
+#define ENERGY_KINETIC 0
+#define ENERGY_POTENTIAL 1    // about the grid's origin
+#define ENERGY_COMPRESSION 2
+#define ENERGY_MASS 3
+#define ENERGY_COUNT 4
+
+inline void add_compensated(real value, real* sum, real* rest) {
+  const real wanted = value - *rest;
+  const real total = *sum + wanted;
+  *rest = (total - *sum) - wanted;
+  *sum = total;
+}
+
+__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, int stride, __global real* energies) {
+  const int chunk = get_global_id(0);
+  if (chunk * REDUCE_CHUNK >= count) return;
+  real sums[ENERGY_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0)};
+  real rests[ENERGY_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0)};
+  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+    const real mass = state[FIELD_MASS * stride + i];
+    const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
+    const real s = state[FIELD_COMPRESSION * stride + i];
+    const real fall = p->gravity_x * state[FIELD_X * stride + i] + p->gravity_y * state[FIELD_Y * stride + i] + p->gravity_z * state[FIELD_Z * stride + i];
+    add_compensated(R(0.5) * mass * (u * u + v * v + w * w), &sums[ENERGY_KINETIC], &rests[ENERGY_KINETIC]);
+    add_compensated(-mass * fall, &sums[ENERGY_POTENTIAL], &rests[ENERGY_POTENTIAL]);
+    // ∫ p/ρ² dρ to second order in s
+    add_compensated(R(0.5) * p->sound_speed * p->sound_speed * mass * s * s, &sums[ENERGY_COMPRESSION], &rests[ENERGY_COMPRESSION]);
+    add_compensated(mass, &sums[ENERGY_MASS], &rests[ENERGY_MASS]);
+  }
+  for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
+}
+
+__kernel void energy_total(int chunks, __global const real* energies, __global real* total) {
+  if (get_global_id(0) != 0) return;
+  for (int k = 0; k < ENERGY_COUNT; ++k) {
+    real sum = R(0.0), rest = R(0.0);
+    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(energies[chunk * ENERGY_COUNT + k], &sum, &rest);
+    total[k] = sum;
+  }
+}
+
+// Packing's report: Σ and greatest of h |E|.
+__kernel void packing_total(int count, __global const real* rates, int stride, __global real* total) {
+  if (get_global_id(0) != 0) return;
+  real sum = R(0.0), rest = R(0.0), greatest = R(0.0);
+  for (int i = 0; i < count; ++i) {
+    const real error = rates[RATE_COMPRESSION * stride + i];
+    add_compensated(error * error, &sum, &rest);
+    greatest = fmax(greatest, error);
+  }
+  total[0] = sqrt(sum / (real)count);
+  total[1] = greatest;
+}
+
+// Force and torque on each owner of walls. chunk_range[2c], [2c+1] give chunk c's elements in `members`, all of one owner, owners in order.
+#define WRENCH_COUNT 12
+
+__kernel void wrench_chunks(int chunks, __global const int* chunk_range, __global const int* members, __global const real* walls, int wall_stride,
+                            __global const real* loads, __global const int* chunk_owner, __global const real* centres, __global real* wrenches) {
+  const int chunk = get_global_id(0);
+  if (chunk >= chunks) return;
+  const int owner = chunk_owner[chunk];
+  real sums[WRENCH_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+  for (int k = chunk_range[2 * chunk]; k < chunk_range[2 * chunk + 1]; ++k) {
+    const int s = members[k];
+    const real area = walls[WALL_AREA * wall_stride + s];
+    const real arm_x = walls[WALL_X * wall_stride + s] - centres[3 * owner];
+    const real arm_y = walls[WALL_Y * wall_stride + s] - centres[3 * owner + 1];
+    const real arm_z = walls[WALL_Z * wall_stride + s] - centres[3 * owner + 2];
+    for (int part = 0; part < 2; ++part) {
+      real fx, fy, fz;
+      if (part == 0) {
+        const real push = loads[LOAD_PRESSURE * wall_stride + s] * area;
+        fx = push * walls[WALL_NORMAL_X * wall_stride + s];
+        fy = push * walls[WALL_NORMAL_Y * wall_stride + s];
+        fz = push * walls[WALL_NORMAL_Z * wall_stride + s];
+      } else {
+        fx = loads[LOAD_SHEAR_X * wall_stride + s] * area;
+        fy = loads[LOAD_SHEAR_Y * wall_stride + s] * area;
+        fz = loads[LOAD_SHEAR_Z * wall_stride + s] * area;
+      }
+      sums[3 * part] += fx;
+      sums[3 * part + 1] += fy;
+      sums[3 * part + 2] += fz;
+      sums[6 + 3 * part] += arm_y * fz - arm_z * fy;
+      sums[6 + 3 * part + 1] += arm_z * fx - arm_x * fz;
+      sums[6 + 3 * part + 2] += arm_x * fy - arm_y * fx;
+    }
+  }
+  for (int k = 0; k < WRENCH_COUNT; ++k) wrenches[chunk * WRENCH_COUNT + k] = sums[k];
+}
+
+// owner_chunks[o] … owner_chunks[o+1] are the owner's chunks. totals: pressure force, viscous force, pressure torque, viscous torque.
+__kernel void wrench_totals(int owners, __global const int* owner_chunks, __global const real* wrenches, __global real* totals) {
+  const int owner = get_global_id(0);
+  if (owner >= owners) return;
+  for (int k = 0; k < WRENCH_COUNT; ++k) {
+    real sum = R(0.0);
+    for (int chunk = owner_chunks[owner]; chunk < owner_chunks[owner + 1]; ++chunk) sum += wrenches[chunk * WRENCH_COUNT + k];
+    totals[owner * WRENCH_COUNT + k] = sum;
+  }
+}

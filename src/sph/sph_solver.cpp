@@ -1,0 +1,371 @@
+#include "sph_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "wavetank/common/error.h"
+#include "wavetank/sph/kernel_sources.h"
+
+namespace wavetank {
+namespace {
+
+std::string build_options(const Case& scene, bool use_double) {
+  const NumericsCase& n = scene.numerics;
+  std::ostringstream options;
+  options << "-DDIMENSIONS=" << scene.dimensions << " -DUSE_DOUBLE=" << use_double
+          << " -DDIFFUSION_FOURTAKAS=" << (n.density_diffusion == DensityDiffusion::fourtakas)
+          << " -DDIFFUSION_ANTUONO=" << (n.density_diffusion == DensityDiffusion::antuono)
+          << " -DVISCOSITY_MORRIS=" << (n.viscosity_model == ViscosityModel::morris) << " -DNO_SLIP=" << (n.walls.slip == Slip::no_slip)
+          << " -DCOLE=" << (n.equation_of_state == EquationOfState::cole)
+          << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped);
+  return options.str();
+}
+
+int padded(int count) { return (count + 15) / 16 * 16; }
+
+}  // namespace
+
+template <class Real>
+struct SphSolver<Real>::DevicePoints final : PointSet {
+  int count = 0;
+  Buffer points;
+  mutable Buffer results;
+};
+
+template <class Real>
+SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
+                           const std::vector<Eigen::Vector3d>& centres)
+    : device_(device),
+      case_(scene),
+      discretisation_(discretisation),
+      count_(static_cast<int>(layout.particles.size())),
+      stride_(padded(count_)),
+      chunks_((count_ + field::reduce_chunk - 1) / field::reduce_chunk),
+      options_(build_options(scene, std::is_same_v<Real, double>)),
+      sources_(kernel_sources()),
+      state_(device, static_cast<std::size_t>(field::state_count) * stride_),
+      spare_(device, static_cast<std::size_t>(field::state_count) * stride_),
+      half_(device, static_cast<std::size_t>(field::swept) * stride_),
+      rates_(device, static_cast<std::size_t>(field::rate_count) * stride_),
+      gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
+      id_(device, count_),
+      spare_id_(device, count_),
+      grid_(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_),
+      walls_(device, layout.walls, discretisation),
+      closed_elements_(layout.walls),
+      owners_(device, walls_, centres, discretisation),
+      loads_(device, static_cast<std::size_t>(field::load_count) * walls_.stride),
+      time_step_(device, 3),
+      watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
+      energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
+      energy_total_(device, field::energy_count),
+      guard_hits_(device, count_),
+      alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
+      alarm_(device, field::alarm_count) {
+  closed_elements_.insert(closed_elements_.end(), layout.lid.begin(), layout.lid.end());
+  const KernelParameters<Real> parameters = kernel_parameters<Real>(case_, discretisation_);
+  std::vector<char> bytes(sizeof parameters);
+  std::memcpy(bytes.data(), &parameters, sizeof parameters);
+  parameters_ = compute::Buffer<char>(device_, bytes);
+  build_kernels();
+  upload_particles(layout);
+  stages_ = symplectic();
+}
+
+template <class Real>
+void SphSolver<Real>::build_kernels() {
+  const std::string fast = options_ + " -cl-fast-relaxed-math";
+  const auto sweep = [&](const char* file, const char* name, const std::string& options) {
+    return compute::Program(device_, sources_, file, options).kernel(name);
+  };
+  rates_kernel_ = sweep("rates.cl", "rates", fast);
+  gradient_kernel_ = sweep("density_gradient.cl", "density_gradient", fast);
+  loads_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=0");
+  shear_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=1");
+  packing_kernel_ = sweep("packing.cl", "packing", fast);
+  guard_kernel_ = sweep("guard.cl", "guard", options_);
+  const compute::Program points(device_, sources_, "points.cl", fast);
+  points_kernel_ = points.kernel("points");
+  surface_kernel_ = points.kernel("surface");
+  const compute::Program time(device_, sources_, "time_step.cl", options_);
+  derive_ = time.kernel("derive_state");
+  predict_ = time.kernel("predict");
+  correct_ = time.kernel("correct");
+  move_packed_ = time.kernel("move_packed");
+  const compute::Program reduce(device_, sources_, "reduce.cl", options_);
+  watch_chunks_ = reduce.kernel("watch_chunks");
+  watch_total_ = reduce.kernel("watch_total");
+  energy_chunks_ = reduce.kernel("energy_chunks");
+  energy_sum_ = reduce.kernel("energy_total");
+  packing_total_ = reduce.kernel("packing_total");
+  wrench_chunks_ = reduce.kernel("wrench_chunks");
+  wrench_totals_ = reduce.kernel("wrench_totals");
+}
+
+template <class Real>
+void SphSolver<Real>::upload_particles(const Layout& layout) {
+  std::vector<Real> state(state_.size(), Real(0));
+  std::vector<std::uint32_t> id(count_);
+  for (int i = 0; i < count_; ++i) {
+    id[i] = static_cast<std::uint32_t>(i);
+    const Eigen::Vector3d relative = layout.particles[i] - discretisation_.origin;
+    for (int axis = 0; axis < 3; ++axis) state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = static_cast<Real>(relative[axis]);
+    state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
+  }
+  levels_ = layout.levels;
+  state_.upload(state);
+  id_.upload(id);
+  derive_.launch(count_, parameters_, count_, state_, stride_);
+  sort();
+}
+
+template <class Real>
+void SphSolver<Real>::sort() {
+  grid_.sort(parameters_, state_, spare_, stride_, id_, spare_id_);
+  loads_current_ = false;
+}
+
+template <class Real>
+void SphSolver<Real>::load_walls(Buffer& state) {
+  if (&state == &state_ && loads_current_) return;
+  loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.fields, walls_.stride, loads_);
+  loads_current_ = &state == &state_;
+}
+
+template <class Real>
+void SphSolver<Real>::find_gradient(Buffer& state) {
+  gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, gradient_);
+}
+
+template <class Real>
+void SphSolver<Real>::find_rates(Buffer& state) {
+  rates_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.fields, walls_.stride, loads_,
+                       gradient_, rates_);
+}
+
+template <class Real>
+void SphSolver<Real>::guard() {
+  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.fields, walls_.stride, rates_, state_, stride_, guard_hits_);
+}
+
+template <class Real>
+std::vector<Stage> SphSolver<Real>::symplectic() {
+  std::vector<Stage> stages;
+  const bool antuono = case_.numerics.density_diffusion == DensityDiffusion::antuono;
+  const auto evaluate_at = [&](const char* name, Buffer& state) {
+    stages.push_back({name, [this, &state] { load_walls(state); }});
+    if (antuono) stages.push_back({name, [this, &state] { find_gradient(state); }});
+    stages.push_back({name, [this, &state] { find_rates(state); }});
+  };
+  evaluate_at("rates of the beginning", state_);
+  stages.push_back({"to the middle", [this] { predict_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }});
+  evaluate_at("rates of the middle", half_);
+  stages.push_back({"to the end", [this] { correct_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }});
+  stages.push_back({"guard", [this] { guard(); }});
+  return stages;
+}
+
+template <class Real>
+StepReport SphSolver<Real>::advance() {
+  for (const Stage& stage : stages_) stage.run();
+  const StepReport report = watch();
+  if (report.offender < 0) sort();
+  return report;
+}
+
+template <class Real>
+StepReport SphSolver<Real>::watch() {
+  watch_chunks_.launch(chunks_, parameters_, count_, state_, rates_, stride_, guard_hits_, watches_, alarms_);
+  watch_total_.launch(1, parameters_, chunks_, watches_, alarms_, time_step_, alarm_);
+  const std::vector<Real> step = time_step_.download();
+  const std::vector<int> alarm = alarm_.download();
+  StepReport report;
+  report.time_step = step[0];
+  report.greatest_speed = step[1];
+  report.greatest_acceleration = step[2];
+  report.not_finite = alarm[field::alarm_not_finite];
+  report.outside = alarm[field::alarm_outside];
+  report.too_fast = alarm[field::alarm_fast];
+  report.guard_hits = alarm[field::alarm_guard];
+  report.shepard_bounded = alarm[field::alarm_shepard];
+  if (report.not_finite + report.outside + report.too_fast > 0) {
+    report.offender = alarm[field::alarm_first];
+    report.offender_id = id_.download()[report.offender];
+    const std::vector<Real> state = state_.download();
+    for (int axis = 0; axis < 3; ++axis) {
+      report.offender_position[axis] =
+          state[static_cast<std::size_t>(field::x + axis) * stride_ + report.offender] + discretisation_.origin[axis];
+      report.offender_velocity[axis] = state[static_cast<std::size_t>(field::u + axis) * stride_ + report.offender];
+    }
+  }
+  return report;
+}
+
+template <class Real>
+StepReport SphSolver<Real>::start() {
+  // hydrostatic below the free surface that the particle was filled under, along the gravity's vertical component
+  std::vector<Real> state = state_.download();
+  const std::vector<std::uint32_t> id = id_.download();
+  const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
+  const double g = -case_.gravity.z();
+  for (int i = 0; i < count_; ++i) {
+    const double z = state[static_cast<std::size_t>(field::z) * stride_ + i] + discretisation_.origin.z();
+    const double head = g * std::max(levels_[id[i]] - z, 0.0) / c2;  // p/(ρ₀c₀²)
+    const double compression =
+        case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
+    state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
+    for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
+      state[static_cast<std::size_t>(f) * stride_ + i] = Real(0);
+  }
+  state_.upload(state);
+  derive_.launch(count_, parameters_, count_, state_, stride_);
+  loads_current_ = false;
+  load_walls(state_);
+  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) find_gradient(state_);
+  find_rates(state_);
+  guard_hits_.fill_zero();
+  return watch();
+}
+
+template <class Real>
+PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
+  PackingReport report;
+  const WallArrays<Real> closed(device_, closed_elements_, discretisation_);
+  Buffer total(device_, 2);
+  const int report_interval = 10;
+  for (int k = 0; k <= iterations; ++k) {
+    packing_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, closed.starts, closed.fields, closed.stride,
+                           rates_);
+    if (k % report_interval == 0 || k == iterations) {
+      packing_total_.launch(1, count_, rates_, stride_, total);
+      report.last_error = total.download()[0];
+      if (k == 0) report.first_error = report.last_error;
+      if (progress) progress(iterations == 0 ? 1.0 : static_cast<double>(k) / iterations);
+    }
+    report.iterations = k;
+    if (k == iterations) break;
+    move_packed_.launch(count_, count_, state_, stride_, rates_);
+    guard_kernel_.launch(count_, parameters_, count_, closed.starts, closed.fields, closed.stride, rates_, state_, stride_, guard_hits_);
+    sort();
+  }
+  return report;
+}
+
+template <class Real>
+std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::Vector3d>& points) const {
+  auto set = std::make_unique<DevicePoints>();
+  set->count = static_cast<int>(points.size());
+  std::vector<Real> values(points.size() * 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      values[axis * points.size() + i] = static_cast<Real>(points[i][axis] - discretisation_.origin[axis]);
+  set->points = Buffer(device_, values);
+  set->results = Buffer(device_, values.size());
+  return set;
+}
+
+template <class Real>
+std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
+  const auto& points = dynamic_cast<const DevicePoints&>(set);
+  points_kernel_.launch(points.count, parameters_, points.count, grid_.starts(), state_, stride_, walls_.starts, walls_.fields,
+                        walls_.stride, points.points, points.results);
+  const std::vector<Real> results = points.results.download();
+  std::vector<PointValue> values(points.count);
+  for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
+  return values;
+}
+
+template <class Real>
+std::vector<WallWrench> SphSolver<Real>::wrenches() {
+  std::vector<WallWrench> result(owners_.owners);
+  for (WallWrench& wrench : result) wrench.fill(Eigen::Vector3d::Zero());
+  if (walls_.count == 0) return result;
+  // the shear is only computed here; the pressures are the same as the step's
+  shear_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state_, stride_, walls_.fields, walls_.stride, loads_);
+  loads_current_ = false;
+  wrench_chunks_.launch(owners_.chunks, owners_.chunks, owners_.chunk_range, owners_.members, walls_.fields, walls_.stride, loads_,
+                        owners_.chunk_owner, owners_.centres, owners_.partial);
+  wrench_totals_.launch(owners_.owners, owners_.owners, owners_.owner_chunks, owners_.partial, owners_.total);
+  const std::vector<Real> total = owners_.total.download();
+  const bool slip = case_.numerics.walls.slip == Slip::no_slip;
+  for (int o = 0; o < owners_.owners; ++o)
+    for (int part = 0; part < 4; ++part)
+      for (int axis = 0; axis < 3; ++axis)
+        if (part % 2 == 0 || slip) result[o][part][axis] = total[static_cast<std::size_t>(o) * field::wrench_count + 3 * part + axis];
+  return result;
+}
+
+template <class Real>
+FluidEnergies SphSolver<Real>::energies() {
+  energy_chunks_.launch(chunks_, parameters_, count_, state_, stride_, energy_parts_);
+  energy_sum_.launch(1, chunks_, energy_parts_, energy_total_);
+  const std::vector<Real> total = energy_total_.download();
+  FluidEnergies energies{total[0], total[1], total[2], total[3]};
+  // from the grid's origin to the tank's floor
+  const Eigen::Vector3d floor = discretisation_.lower + Eigen::Vector3d::Constant(0.5 * discretisation_.spacing) - discretisation_.origin;
+  energies.potential += energies.mass * case_.gravity.z() * floor.z();
+  return energies;
+}
+
+template <class Real>
+FluidState SphSolver<Real>::download() {
+  const std::vector<Real> state = state_.download();
+  Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
+  surface_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.fields, walls_.stride,
+                         results);
+  const std::vector<Real> surface = results.download();
+  FluidState fluid;
+  fluid.id = id_.download();
+  const auto value = [&](int f, int i) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
+  for (int i = 0; i < count_; ++i) {
+    fluid.position.push_back(Eigen::Vector3d(value(field::x, i), value(field::y, i), value(field::z, i)) + discretisation_.origin);
+    fluid.velocity.emplace_back(value(field::u, i), value(field::v, i), value(field::w, i));
+    fluid.pressure.push_back(value(field::pressure, i));
+    fluid.compression.push_back(value(field::compression, i));
+    fluid.mass.push_back(value(field::mass, i));
+    fluid.surface.push_back(surface[i] > Real(0.5) ? 1 : 0);
+    fluid.shepard.push_back(surface[stride_ + i]);
+  }
+  return fluid;
+}
+
+template <class Real>
+std::vector<char> SphSolver<Real>::save() const {
+  const std::vector<Real> state = state_.download();
+  const std::vector<Real> step = time_step_.download();
+  const std::vector<std::uint32_t> id = id_.download();
+  std::vector<char> bytes;
+  const auto append = [&](const void* from, std::size_t size) {
+    const char* begin = static_cast<const char*>(from);
+    bytes.insert(bytes.end(), begin, begin + size);
+  };
+  append(state.data(), state.size() * sizeof(Real));
+  append(step.data(), step.size() * sizeof(Real));
+  append(id.data(), id.size() * sizeof(std::uint32_t));
+  return bytes;
+}
+
+template <class Real>
+void SphSolver<Real>::restore(const std::vector<char>& bytes) {
+  std::vector<Real> state(state_.size()), step(time_step_.size());
+  std::vector<std::uint32_t> id(count_);
+  const std::size_t sizes[3] = {state.size() * sizeof(Real), step.size() * sizeof(Real), id.size() * sizeof(std::uint32_t)};
+  if (bytes.size() != sizes[0] + sizes[1] + sizes[2])
+    throw Error("the snapshot's fluid has " + std::to_string(bytes.size()) + " bytes, but this case's has " +
+                std::to_string(sizes[0] + sizes[1] + sizes[2]) + ".");
+  std::memcpy(state.data(), bytes.data(), sizes[0]);
+  std::memcpy(step.data(), bytes.data() + sizes[0], sizes[1]);
+  std::memcpy(id.data(), bytes.data() + sizes[0] + sizes[1], sizes[2]);
+  state_.upload(state);
+  time_step_.upload(step);
+  id_.upload(id);
+  sort();  // already sorted, so this changes nothing but finds the cells
+}
+
+template class SphSolver<float>;
+template class SphSolver<double>;
+
+}  // namespace wavetank

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "kernel_parameters.h"
+#include "particle_grid.h"
+#include "wall_arrays.h"
+#include "wavetank/compute/program.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// One stage of a time step; a scheme is a list of them, so that it can be read on one page.
+struct Stage {
+  const char* name;
+  std::function<void()> run;
+};
+
+template <class Real>
+class SphSolver final : public Solver {
+ public:
+  SphSolver(const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
+            const std::vector<Eigen::Vector3d>& centres);
+
+  PackingReport pack(int iterations, const std::function<void(double)>& progress) override;
+  StepReport start() override;
+  StepReport advance() override;
+  std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
+  std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
+  std::vector<PointValue> evaluate(const PointSet& points) override;
+  std::vector<WallWrench> wrenches() override;
+  FluidEnergies energies() override;
+  FluidState download() override;
+  std::vector<char> save() const override;
+  void restore(const std::vector<char>& bytes) override;
+  std::size_t device_memory() const override { return device_.allocated(); }
+
+ private:
+  using Buffer = compute::Buffer<Real>;
+  struct DevicePoints;
+
+  void build_kernels();
+  void upload_particles(const Layout& layout);
+  std::vector<Stage> symplectic();
+  void sort();
+  void load_walls(Buffer& state);
+  void find_gradient(Buffer& state);
+  void find_rates(Buffer& state);
+  void guard();
+  StepReport watch();
+
+  compute::Device device_;
+  Case case_;
+  Discretisation discretisation_;
+  int count_ = 0;
+  int stride_ = 0;
+  int chunks_ = 0;
+  std::string options_;
+  compute::SourceFiles sources_;
+  compute::Buffer<char> parameters_;
+  std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
+  Buffer state_, spare_, half_, rates_, gradient_;
+  compute::Buffer<std::uint32_t> id_, spare_id_;
+  ParticleGrid grid_;
+  WallArrays<Real> walls_;
+  std::vector<WallElement> closed_elements_;  ///< walls and lid, for packing
+  WallOwners<Real> owners_;
+  Buffer loads_;
+  bool loads_current_ = false;  ///< loads_ belongs to state_ as it is
+  Buffer time_step_, watches_, energy_parts_, energy_total_;
+  compute::Buffer<int> guard_hits_, alarms_, alarm_;
+  compute::Kernel rates_kernel_, gradient_kernel_, loads_kernel_, shear_kernel_, packing_kernel_, points_kernel_, surface_kernel_,
+      guard_kernel_;
+  compute::Kernel derive_, predict_, correct_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_, packing_total_;
+  compute::Kernel wrench_chunks_, wrench_totals_;
+  std::vector<Stage> stages_;
+};
+
+}  // namespace wavetank
