@@ -1,0 +1,232 @@
+#include "case_keys.h"
+
+namespace wavetank::scene {
+namespace {
+
+Section<Box> box_section() {
+  Section<Box> section;
+  section.key("min", &Box::min, position(), "m", "Corner of least coordinates.").required = true;
+  section.key("max", &Box::max, position(), "m", "Corner of greatest coordinates, each greater than that of `min`; y is ignored in 2-D.")
+      .required = true;
+  section.rule([](const Box& box, const Setting& map, const std::string& path, const Context& context) {
+    for (const int axis : {0, 1, 2}) {
+      if (axis == 1 && context.dimensions == 2) continue;
+      if (box.min[axis] < box.max[axis]) continue;
+      refuse(*map.find("max"), {join_path(path, "max"), "m"},
+             "greater than " + join_path(path, "min") + ", " + map.find("min")->brief() + ", in " + "xyz"[axis]);
+    }
+  });
+  return section;
+}
+
+template <class T, class Shape>
+void add_mesh_keys(Section<T>& section, Shape shape) {
+  section
+      .template key_of<MeshSource>(
+          shape, "mesh", &MeshSource::uri, nonempty_text(), "",
+          "Mesh file (STL, OBJ, DAE, ...): package://, file://, an absolute path, or one relative to the case file.")
+      .required = true;
+  section.template key_of<MeshSource>(shape, "scale", &MeshSource::scale, number(greater_than(0)), "", "Metres per unit of the mesh file.");
+  section.template key_of<MeshSource>(shape, "translation", &MeshSource::translation, vector(), "m", "Moves the mesh; applied last.");
+  section.template key_of<MeshSource>(shape, "rotation", &MeshSource::rotation, angles(), "°",
+                                      "Roll, pitch and yaw about the fixed axes x, y, z; applied after the scale.");
+  section.exactly_one_of({{"box"}, {"mesh", "scale", "translation", "rotation"}});
+}
+
+Section<FillRegion> fill_section() {
+  Section<FillRegion> section;
+  section.key_of<Box>(Whole{}, "box", Whole{}, section_of(box_section()), "", "Water in a box.").required = true;
+  section
+      .key_of<FloodFill>(Whole{}, "seed", &FloodFill::seed, position(), "m",
+                         "A point inside a region bounded by walls: water fills the region from it ...")
+      .required = true;
+  section.key_of<FloodFill>(Whole{}, "level", &FloodFill::level, number({}), "m", "... up to this z of the free surface.").required = true;
+  section.exactly_one_of({{"box"}, {"seed", "level"}});
+  section.rule([](const FillRegion& region, const Setting& map, const std::string& path, const Context&) {
+    const auto* flood = std::get_if<FloodFill>(&region);
+    if (flood == nullptr || flood->seed.z() < flood->level) return;
+    refuse(*map.find("level"), {join_path(path, "level"), "m"}, "above the seed, " + map.find("seed")->brief());
+  });
+  return section;
+}
+
+Section<FluidCase> fluid_section() {
+  Section<FluidCase> section;
+  section.key("density", &FluidCase::density, number(greater_than(0)), "kg/m³", "Density ρ₀ at rest.");
+  section.key("viscosity", &FluidCase::viscosity, number(at_least(0)), "Pa·s", "Dynamic viscosity μ.");
+  section.key("sound_speed", &FluidCase::sound_speed, number_or_auto(greater_than(0)), "m/s",
+              "Speed of sound c₀ of the weakly compressible fluid; `auto` is 10 × the greatest expected speed.");
+  section.key("spacing", &FluidCase::spacing, number_if_given(greater_than(0)), "m", "Initial distance Δx of the particles.").required =
+      true;
+  section
+      .key("particles", &FluidCase::particles, count_if_given(between(1, 1e9)), "",
+           "About so many fluid particles: the spacing follows from the fluid's volume.")
+      .required = true;
+  section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions.").required =
+      true;
+  section.exactly_one_of({{"spacing"}, {"particles"}});
+  section.rule([](const FluidCase& fluid, const Setting& map, const std::string& path, const Context&) {
+    if (fluid.fill.empty()) refuse(*map.find("fill"), {join_path(path, "fill"), ""}, "a list of at least one region");
+  });
+  return section;
+}
+
+Section<TankCase> tank_section() {
+  Section<BoxTank> box;
+  box.key("size", &BoxTank::size, size(), "m", "Inner length, width and height; the width is ignored in 2-D.").required = true;
+  box.key("origin", &BoxTank::origin, position(), "m", "Corner of least coordinates.");
+  box.key("closed", &BoxTank::closed, flag(), "", "Whether the tank has a lid.");
+  Section<TankCase> section;
+  section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
+  add_mesh_keys(section, &TankCase::shape);
+  return section;
+}
+
+Section<BodyCase> body_section() {
+  Section<BodyCase> section;
+  section
+      .key("name", &BodyCase::name, name(), "",
+           "Part of the names of the body's topics and frame; its own among bodies, probes and gauges.")
+      .required = true;
+  section.key("motion", &BodyCase::motion, choice<Motion>({{"fixed", Motion::fixed}}), "", "How the body moves.");
+  section.key_of<Box>(&BodyCase::shape, "box", Whole{}, section_of(box_section()), "", "A box.").required = true;
+  add_mesh_keys(section, &BodyCase::shape);
+  return section;
+}
+
+Section<WallCase> wall_section() {
+  Section<WallCase> section;
+  section.key("method", &WallCase::method, choice<WallMethod>({{"boundary_integral", WallMethod::boundary_integral}}), "",
+              "How walls act on the fluid.");
+  section.key("shepard", &WallCase::shepard, choice<ShepardFactor>({{"geometric", ShepardFactor::geometric}}), "",
+              "How the Shepard factor γ, the kernel's integral over the fluid's side of the walls, is found.");
+  section.key("elements", &WallCase::elements, choice<WallElements>({{"numerical", WallElements::numerical}}), "",
+              "How a wall element's share of a boundary integral is found.");
+  section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
+              "The fluid's velocity along a wall.");
+  section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
+              "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off.");
+  return section;
+}
+
+Section<NumericsCase> numerics_section() {
+  Section<PackingCase> packing;
+  packing.key("iterations", &PackingCase::iterations, whole_number(between(0, 100000)), "",
+              "At most so many steps of packing the particles before the start; 0 starts from the lattice.");
+  Section<NumericsCase> section;
+  section.key("scheme", &NumericsCase::scheme, choice<Scheme>({{"delta_sph", Scheme::delta_sph}}), "", "The SPH scheme.");
+  section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",
+              "Radius R of the kernel's support; `auto` is 4 in 2-D and 3 in 3-D.");
+  section.key("walls", &NumericsCase::walls, section_of(wall_section()), "", "Walls of the tank and of the bodies.");
+  section.key("density_diffusion", &NumericsCase::density_diffusion,
+              choice<DensityDiffusion>(
+                  {{"none", DensityDiffusion::none}, {"fourtakas", DensityDiffusion::fourtakas}, {"antuono", DensityDiffusion::antuono}}),
+              "", "Density diffusion of δ-SPH: of the dynamic density, or with renormalised gradients.");
+  section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
+  section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
+              "Coefficient α of the artificial viscosity.");
+  section.key("equation_of_state", &NumericsCase::equation_of_state,
+              choice<EquationOfState>({{"linear", EquationOfState::linear}, {"cole", EquationOfState::cole}}), "",
+              "Pressure from density: linear, or Cole's with exponent 7.");
+  section.key("viscosity_model", &NumericsCase::viscosity_model,
+              choice<ViscosityModel>({{"monaghan_gingold", ViscosityModel::monaghan_gingold}, {"morris", ViscosityModel::morris}}), "",
+              "Form of the physical viscosity's sum.");
+  section.key("negative_pressure", &NumericsCase::negative_pressure,
+              choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
+              "What the fluid does where its pressure would fall below that of the air.");
+  section.key("shifting", &NumericsCase::shifting, choice<Shifting>({{"none", Shifting::none}}), "", "Particle shifting law.");
+  section.key("integrator", &NumericsCase::integrator, choice<Integrator>({{"symplectic", Integrator::symplectic}}), "", "Time scheme.");
+  section.key("courant", &NumericsCase::courant, number(above_up_to(0, 1.5)), "", "Time step as a fraction of h/(c₀ + |u|).");
+  section.key("precision", &NumericsCase::precision, choice<Precision>({{"single", Precision::single}, {"double", Precision::double_}}), "",
+              "Of the numbers on the device; not every device has double.");
+  section.key("packing", &NumericsCase::packing, section_of(packing), "", "Before the start.");
+  return section;
+}
+
+Section<InstrumentsCase> instruments_section() {
+  Section<PressureProbeCase> probe;
+  probe.key("name", &PressureProbeCase::name, name(), "", "Part of the names of the probe's topic and frame.").required = true;
+  probe.key("position", &PressureProbeCase::position, position(), "m", "On a wall or in the fluid; in 2-D also [x, z].").required = true;
+  Section<WaveGaugeCase> gauge;
+  gauge.key("name", &WaveGaugeCase::name, name(), "", "The gauge's name.").required = true;
+  gauge
+      .key("position", &WaveGaugeCase::position, gauge_position(), "m",
+           "Of the vertical line; a z may be given and is ignored; in 2-D also [x].")
+      .required = true;
+  Section<InstrumentsCase> section;
+  section.key("pressure_probes", &InstrumentsCase::pressure_probes, list_of(probe), "", "Pressure probes.");
+  section.key("wave_gauges", &InstrumentsCase::wave_gauges, list_of(gauge), "",
+              "Wave gauges: the level of the free surface on vertical lines.");
+  const Range rates = above_up_to(0, 1e6);
+  section.key("rate", &InstrumentsCase::rate, number(rates), "Hz",
+              "Samples a second of simulated time, of all instruments without a rate of their own.");
+  section.key("gauge_rate", &InstrumentsCase::gauge_rate, number_or_auto(rates), "Hz", "Of the wave gauges; `auto` is `instruments/rate`.");
+  section.key("wrench_rate", &InstrumentsCase::wrench_rate, number_or_auto(rates), "Hz",
+              "Of the force and torque on tank and bodies; `auto` is `instruments/rate`.");
+  section.key("energy_rate", &InstrumentsCase::energy_rate, number_or_auto(rates), "Hz",
+              "Of energies and mass; `auto` is `instruments/rate`.");
+  return section;
+}
+
+// The clouds' rates and the other keys of publishing lie at different places of the file, and in one struct.
+Section<PublishingCase> rates_section() {
+  Section<PublishingCase> section;
+  section.key("cloud", &PublishingCase::cloud_rate, number(above_up_to(0, 1e6)), "Hz",
+              "Particle clouds on topics: of wall time, while someone listens.");
+  section.key("cloud_bag", &PublishingCase::cloud_bag_rate, number(above_up_to(0, 1e6)), "Hz",
+              "Particle clouds in a bag of `wavetank_run --clouds`: of simulated time.");
+  return section;
+}
+
+template <class Member, class Value>
+void add_publishing_key(Section<Case>& section, const std::string& name, Member member, Codec<Value> codec, const std::string& unit,
+                        const std::string& description) {
+  section.key(
+      name, [member](auto& target) -> auto& { return target.publishing.*member; }, codec, unit, description);
+}
+
+Section<Case> declare_case() {
+  Section<Case> section;
+  section.key("title", &Case::title, text(), "", "One line that says what the case is.");
+  section.key("dimensions", &Case::dimensions, dimension_count(), "",
+              "A 2-D case lies in the x–z plane; its positions may be given as [x, z].");
+  section.key("gravity", &Case::gravity, vector(), "m/s²", "In 2-D without a y component.");
+  section.key("duration", &Case::duration, number(greater_than(0)), "s", "Of simulated time.").required = true;
+  section.key("device", &Case::device, nonempty_text(), "",
+              "OpenCL device: `auto`, `cpu`, `gpu`, a part of the device's name, or \"PLATFORM:DEVICE\" by index, in quotes.");
+  section.key("fluid", &Case::fluid, section_of(fluid_section()), "", "The water.").required = true;
+  section.key("tank", &Case::tank, section_of(tank_section()), "", "The tank: a box or a mesh.").required = true;
+  section.key("bodies", &Case::bodies, list_of(body_section()), "", "Bodies in the tank: boxes or closed meshes.");
+  section.key("numerics", &Case::numerics, section_of(numerics_section()), "", "The method.");
+  section.key("instruments", &Case::instruments, section_of(instruments_section()), "", "What is measured.");
+  section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds are published.");
+  add_publishing_key(section, "max_points", &PublishingCase::max_points, whole_number(between(1, 1e9)), "",
+                     "Of a published cloud; more are decimated.");
+  add_publishing_key(section, "reference_pressure", &PublishingCase::reference_pressure, number({}), "Pa",
+                     "Added to the gauge pressure in sensor_msgs/FluidPressure; 101325 gives absolute pressure.");
+  add_publishing_key(section, "world_frame", &PublishingCase::world_frame, frame(), "", "tf frame of the case's coordinates.");
+  add_publishing_key(section, "publish_clock", &PublishingCase::publish_clock, flag(), "",
+                     "Whether the node publishes /clock from the simulated time.");
+  add_publishing_key(section, "real_time_factor", &PublishingCase::real_time_factor, number(at_least(0)), "",
+                     "Upper limit of simulated over wall time; 0 = as fast as it goes.");
+  return section;
+}
+
+}  // namespace
+
+const Section<Case>& case_section() {
+  static const Section<Case> section = declare_case();
+  return section;
+}
+
+const KeyDescription& case_keys() {
+  static const KeyDescription root = [] {
+    KeyDescription description;
+    description.holds = Holds::section;
+    description.children = case_section().descriptions();
+    return description;
+  }();
+  return root;
+}
+
+}  // namespace wavetank::scene

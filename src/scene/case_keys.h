@@ -1,0 +1,17 @@
+#pragma once
+
+#include "section.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank::scene {
+
+/// The registry: every key of a case, each declared once.
+const Section<Case>& case_section();
+
+/// The same as one section without a name, for checks of structure and for the page of keys.
+const KeyDescription& case_keys();
+
+/// Checks that concern several keys of a case that has been read from `root`: names given twice, gravity out of a 2-D case's plane, ...
+void check_case(const Case& read, const Setting& root);
+
+}  // namespace wavetank::scene

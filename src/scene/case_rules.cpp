@@ -1,0 +1,49 @@
+#include <map>
+
+#include "case_keys.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank::scene {
+namespace {
+
+// Probes and bodies have tf frames and all of them have topics: a name stands for one thing in the whole case.
+class NameCheck {
+ public:
+  NameCheck(const Case& read, const Setting& root) : root_(root), world_frame_(read.publishing.world_frame) {}
+
+  template <class Named>
+  void check(const std::vector<Named>& list, const std::string& path) {
+    for (std::size_t i = 0; i < list.size(); ++i) check_name(list[i].name, join_path(join_path(path, i), "name"));
+  }
+
+ private:
+  void check_name(const std::string& name, const std::string& path) {
+    const std::string start = nearest_setting(root_, path).place.describe() + ": " + path + " is " + name + ", ";
+    if (name == "tank") throw Error(start + "which is reserved for the tank itself; give another name");
+    if (name == world_frame_) throw Error(start + "which is the world_frame too; give another name");
+    const auto [earlier, is_new] = paths_.emplace(name, path);
+    if (!is_new) throw Error(start + "as is " + earlier->second + "; every body, probe and gauge must have a name of its own");
+  }
+
+  const Setting& root_;
+  std::string world_frame_;
+  std::map<std::string, std::string> paths_;  ///< by name
+};
+
+}  // namespace
+
+void check_case(const Case& read, const Setting& root) {
+  if (read.dimensions == 2 && read.gravity.y() != 0.0) {
+    refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "within the x–z plane of a 2-D case, [x, 0, z] or [x, z]");
+  }
+  if (read.gravity.isZero(0.0) && !read.fluid.sound_speed) {
+    throw Error(nearest_setting(root, "gravity").place.describe() +
+                ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
+  }
+  NameCheck names(read, root);
+  names.check(read.bodies, "bodies");
+  names.check(read.instruments.pressure_probes, "instruments/pressure_probes");
+  names.check(read.instruments.wave_gauges, "instruments/wave_gauges");
+}
+
+}  // namespace wavetank::scene

@@ -1,0 +1,102 @@
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+#include "setting.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank::scene {
+namespace {
+
+constexpr int greatest_depth = 32;               // a case needs 6; more is an alias that contains itself
+constexpr std::size_t greatest_count = 1000000;  // of settings, aliases expanded
+
+// Length of the UTF-8 character that starts at `at`, 0 if there is none.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const std::size_t length = byte < 0x80 ? 1 : (byte & 0xe0) == 0xc0 ? 2 : (byte & 0xf0) == 0xe0 ? 3 : (byte & 0xf8) == 0xf0 ? 4 : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+void check_text(const std::string& text, const std::string& source) {
+  int line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const std::size_t length = character_length(text, at);
+    const bool control = byte < 0x20 && byte != '\n' && byte != '\r' && byte != '\t';
+    if (length == 0 || control) {
+      throw Error(source + ":" + std::to_string(line) + ": not a text file (byte " + std::to_string(byte) +
+                  " is not UTF-8 text); a case is YAML text");
+    }
+    if (byte == '\n') ++line;
+    at += length;
+  }
+}
+
+class Converter {
+ public:
+  Converter(const std::string& source, bool has_lines) : source_(std::make_shared<const std::string>(source)), has_lines_(has_lines) {}
+
+  Place place(int yaml_line) const { return {source_, has_lines_ ? yaml_line + 1 : 0}; }
+
+  Setting convert(const YAML::Node& node, int depth = 0) {
+    Setting setting;
+    setting.place = place(node.Mark().line);
+    if (depth > greatest_depth || ++count_ > greatest_count) {
+      throw Error(setting.place.describe() + ": nested or repeated without end (an alias that contains itself?)");
+    }
+    if (node.IsScalar()) {
+      setting.kind = Setting::Kind::scalar;
+      setting.text = node.Scalar();
+      setting.is_string = node.Tag() == "!";
+    } else if (node.IsSequence()) {
+      setting.kind = Setting::Kind::list;
+      for (const YAML::Node& item : node) setting.items.push_back(convert(item, depth + 1));
+    } else if (node.IsMap()) {
+      setting.kind = Setting::Kind::map;
+      for (const auto& entry : node) add_entry(setting, entry.first, entry.second, depth);
+    }
+    return setting;
+  }
+
+ private:
+  void add_entry(Setting& map, const YAML::Node& key, const YAML::Node& value, int depth) {
+    const Place key_place = place(key.Mark().line);
+    if (!key.IsScalar()) throw Error(key_place.describe() + ": a key must be a single word");
+    if (const Setting* earlier = map.find(key.Scalar())) {
+      throw Error(key_place.describe() + ": " + key.Scalar() + " is given twice" +
+                  (has_lines_ ? ", first on line " + std::to_string(earlier->place.line) : "") + "; give it once");
+    }
+    Setting converted = convert(value, depth + 1);
+    converted.place = key_place;
+    map.entries.emplace_back(key.Scalar(), std::move(converted));
+  }
+
+  std::shared_ptr<const std::string> source_;
+  bool has_lines_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Setting parse_settings(const std::string& yaml, const std::string& source) {
+  check_text(yaml, source);
+  const std::size_t first_line_end = yaml.find('\n');
+  Converter converter(source, first_line_end != std::string::npos && first_line_end + 1 < yaml.size());
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    if (documents.empty()) return Setting{Setting::Kind::null, "", false, {}, {}, converter.place(0)};
+    if (documents.size() > 1) {
+      throw Error(converter.place(documents[1].Mark().line).describe() + ": a second YAML document begins; a case is one document");
+    }
+    return converter.convert(documents.front());
+  } catch (const YAML::Exception& exception) {
+    throw Error(converter.place(std::max(exception.mark.line, 0)).describe() + ": not valid YAML: " + exception.msg);
+  }
+}
+
+}  // namespace wavetank::scene

@@ -1,0 +1,280 @@
+#include "values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <regex>
+#include <sstream>
+
+namespace wavetank::scene {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+// The shortest text that reads back to the same number, whatever the process's locale.
+std::string number_text(double number) {
+  for (int digits = 15;; ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(digits);
+    out << number;
+    if (digits == 17) return out.str();
+    std::istringstream in(out.str());
+    in.imbue(std::locale::classic());
+    double back = 0;
+    in >> back;
+    if (back == number) return out.str();
+  }
+}
+
+enum class Reading { number, not_finite, not_a_number };
+
+Reading read_number(const Setting& setting, double& number) {
+  if (setting.kind != Setting::Kind::scalar) return Reading::not_a_number;
+  static const std::regex infinite(R"(\s*[-+]?\.?(inf|infinity|nan)\s*)", std::regex::icase);
+  static const std::regex decimal(R"(\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*)");
+  if (setting.text.size() > 100) return Reading::not_a_number;  // std::regex recurses once a character
+  if (std::regex_match(setting.text, infinite)) return Reading::not_finite;
+  if (!std::regex_match(setting.text, decimal)) return Reading::not_a_number;
+  std::istringstream in(setting.text);
+  in.imbue(std::locale::classic());
+  in >> number;
+  return in.fail() || !std::isfinite(number) ? Reading::not_finite : Reading::number;
+}
+
+double finite_number(const Setting& setting, const Item& item, const std::string& demand) {
+  double number = 0;
+  switch (read_number(setting, number)) {
+    case Reading::number:
+      return number;
+    case Reading::not_finite:
+      refuse(setting, item, "a finite number");
+    case Reading::not_a_number:
+      break;
+  }
+  refuse(setting, item, demand);
+}
+
+std::string number_demand(const Range& range, const std::string& kind) {
+  return range.describe().empty() ? kind : kind + " " + range.describe();
+}
+
+double number_in_range(const Setting& setting, const Item& item, const Range& range) {
+  const double number = finite_number(setting, item, number_demand(range, "a number"));
+  if (!range.contains(number)) refuse(setting, item, range.describe());
+  return number;
+}
+
+double whole_number_in_range(const Setting& setting, const Item& item, const Range& range) {
+  const double number = finite_number(setting, item, number_demand(range, "a whole number"));
+  if (number != std::floor(number)) refuse(setting, item, number_demand(range, "a whole number"));
+  if (!range.contains(number)) refuse(setting, item, range.describe());
+  return number;
+}
+
+Setting number_setting(double number) { return Setting::scalar(number_text(number)); }
+
+Setting vector_setting(const Vector3d& vector, int count = 3) {
+  std::vector<Setting> numbers;
+  for (int axis = 0; axis < count; ++axis) numbers.push_back(number_setting(vector[axis]));
+  return Setting::list(std::move(numbers));
+}
+
+// The numbers of a list, `least` to `greatest` of them.
+std::vector<double> numbers_of(const Setting& setting, const Item& item, std::size_t least, std::size_t greatest,
+                               const std::string& demand) {
+  if (setting.kind != Setting::Kind::list || setting.items.size() < least || setting.items.size() > greatest) refuse(setting, item, demand);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < setting.items.size(); ++i) {
+    numbers.push_back(finite_number(setting.items[i], {join_path(item.path, i), item.unit}, "a number"));
+  }
+  return numbers;
+}
+
+Vector3d read_vector(const Setting& setting, const Item& item, const Context& context) {
+  const bool flat = context.dimensions == 2;
+  const auto numbers = numbers_of(setting, item, flat ? 2 : 3, 3, flat ? "numbers [x, z] or [x, y, z]" : "3 numbers [x, y, z]");
+  return numbers.size() == 2 ? Vector3d(numbers[0], 0.0, numbers[1]) : Vector3d(numbers[0], numbers[1], numbers[2]);
+}
+
+Vector3d read_position(const Setting& setting, const Item& item, const Context& context) {
+  Vector3d position = read_vector(setting, item, context);
+  if (context.dimensions == 2) position.y() = 0.0;
+  return position;
+}
+
+std::optional<Setting> write_vector(const Vector3d& vector, const Context&) { return vector_setting(vector); }
+
+Codec<std::string> matching_text(const std::string& type, const std::string& pattern, const std::string& demand) {
+  return {type, demand,
+          [expression = std::regex(pattern), demand](const Setting& setting, const Item& item, Context&) {
+            const bool fits =
+                setting.kind == Setting::Kind::scalar && setting.text.size() <= 200 && std::regex_match(setting.text, expression);
+            if (!fits) refuse(setting, item, demand);
+            return setting.text;
+          },
+          [](const std::string& value, const Context&) -> std::optional<Setting> { return Setting::string(value); }};
+}
+
+}  // namespace
+
+void refuse(const Setting& given, const Item& item, const std::string& allowed) {
+  const std::string unit = item.unit.empty() ? "" : " (" + item.unit + ")";
+  throw Error(given.place.describe() + ": " + item.path + " is " + given.brief() + "; it must be " + allowed + unit);
+}
+
+bool Range::contains(double value) const { return (above_least ? value > least : value >= least) && value <= greatest; }
+
+std::string Range::describe() const {
+  const bool below = std::isfinite(least), above = std::isfinite(greatest);
+  if (below && above) {
+    return above_least ? "greater than " + number_text(least) + " and at most " + number_text(greatest)
+                       : "from " + number_text(least) + " to " + number_text(greatest);
+  }
+  if (below) return (above_least ? "greater than " : "at least ") + number_text(least);
+  return above ? "at most " + number_text(greatest) : "";
+}
+
+Codec<double> number(Range range) {
+  return {"number", range.describe(),
+          [range](const Setting& setting, const Item& item, Context&) { return number_in_range(setting, item, range); },
+          [](const double& value, const Context&) -> std::optional<Setting> { return number_setting(value); }};
+}
+
+Codec<std::optional<double>> number_or_auto(Range range) {
+  return {"number or auto", range.describe() + "; or auto",
+          [range](const Setting& setting, const Item& item, Context&) -> std::optional<double> {
+            if (setting.kind == Setting::Kind::scalar && setting.text == "auto") return std::nullopt;
+            double number = 0;
+            const std::string demand = number_demand(range, "a number") + ", or auto";
+            if (read_number(setting, number) == Reading::not_a_number) refuse(setting, item, demand);
+            number = finite_number(setting, item, demand);
+            if (!range.contains(number)) refuse(setting, item, range.describe() + ", or auto");
+            return number;
+          },
+          [](const std::optional<double>& value, const Context&) -> std::optional<Setting> {
+            return value ? number_setting(*value) : Setting::string("auto");
+          }};
+}
+
+Codec<std::optional<double>> number_if_given(Range range) {
+  return {"number", range.describe(),
+          [range](const Setting& setting, const Item& item, Context&) -> std::optional<double> {
+            return number_in_range(setting, item, range);
+          },
+          [](const std::optional<double>& value, const Context&) -> std::optional<Setting> {
+            if (!value) return std::nullopt;
+            return number_setting(*value);
+          }};
+}
+
+Codec<int> whole_number(Range range) {
+  return {
+      "whole number", range.describe(),
+      [range](const Setting& setting, const Item& item, Context&) { return static_cast<int>(whole_number_in_range(setting, item, range)); },
+      [](const int& value, const Context&) -> std::optional<Setting> { return Setting::scalar(std::to_string(value)); }};
+}
+
+Codec<std::optional<std::size_t>> count_if_given(Range range) {
+  return {"whole number", range.describe(),
+          [range](const Setting& setting, const Item& item, Context&) -> std::optional<std::size_t> {
+            return static_cast<std::size_t>(whole_number_in_range(setting, item, range));
+          },
+          [](const std::optional<std::size_t>& value, const Context&) -> std::optional<Setting> {
+            if (!value) return std::nullopt;
+            return Setting::scalar(std::to_string(*value));
+          }};
+}
+
+Codec<int> dimension_count() {
+  return {"whole number", "2 or 3",
+          [](const Setting& setting, const Item& item, Context& context) {
+            const double number = finite_number(setting, item, "2 or 3");
+            if (number != 2 && number != 3) refuse(setting, item, "2 or 3");
+            return context.dimensions = static_cast<int>(number);
+          },
+          [](const int& value, const Context&) -> std::optional<Setting> { return Setting::scalar(std::to_string(value)); }};
+}
+
+Codec<bool> flag() {
+  return {"true or false", "",
+          [](const Setting& setting, const Item& item, Context&) {
+            const bool scalar = setting.kind == Setting::Kind::scalar;
+            if (scalar && (setting.text == "true" || setting.text == "True")) return true;
+            if (scalar && (setting.text == "false" || setting.text == "False")) return false;
+            refuse(setting, item, "true or false");
+          },
+          [](const bool& value, const Context&) -> std::optional<Setting> { return Setting::scalar(value ? "true" : "false"); }};
+}
+
+Codec<std::string> text() {
+  return {"text", "",
+          [](const Setting& setting, const Item& item, Context&) {
+            if (setting.kind != Setting::Kind::scalar) refuse(setting, item, "text");
+            return setting.text;
+          },
+          [](const std::string& value, const Context&) -> std::optional<Setting> { return Setting::string(value); }};
+}
+
+Codec<std::string> nonempty_text() {
+  Codec<std::string> codec = text();
+  codec.read = [](const Setting& setting, const Item& item, Context&) {
+    if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "text that is not empty");
+    return setting.text;
+  };
+  return codec;
+}
+
+Codec<std::string> name() {
+  return matching_text("name", "[A-Za-z][A-Za-z0-9_]*",
+                       "a letter followed by letters, digits and underscores (it becomes part of a topic's name)");
+}
+
+Codec<std::string> frame() {
+  return matching_text("name", "[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*",
+                       "a tf frame: a letter followed by letters, digits, underscores and single slashes");
+}
+
+Codec<Vector3d> vector() { return {"[x, y, z]", "", read_vector, write_vector}; }
+
+Codec<Vector3d> position() { return {"[x, y, z]", "", read_position, write_vector}; }
+
+Codec<Vector3d> size() {
+  return {"[x, y, z]", "each greater than 0",
+          [](const Setting& setting, const Item& item, Context& context) {
+            const Vector3d size = read_position(setting, item, context);
+            const bool flat = context.dimensions == 2;
+            if (!(size.x() > 0 && size.z() > 0 && (flat || size.y() > 0))) refuse(setting, item, "greater than 0 in every direction");
+            return size;
+          },
+          write_vector};
+}
+
+Codec<Vector3d> gauge_position() {
+  return {"[x, y]", "",
+          [](const Setting& setting, const Item& item, Context& context) {
+            const bool flat = context.dimensions == 2;
+            const auto numbers =
+                numbers_of(setting, item, flat ? 1 : 2, 3, flat ? "numbers [x], [x, z] or [x, y, z]" : "numbers [x, y] or [x, y, z]");
+            return Vector3d(numbers[0], flat ? 0.0 : numbers[1], 0.0);
+          },
+          [](const Vector3d& value, const Context& context) -> std::optional<Setting> {
+            return vector_setting(value, context.dimensions == 2 ? 1 : 2);
+          }};
+}
+
+Codec<Vector3d> angles() {
+  return {"[roll, pitch, yaw]", "",
+          [](const Setting& setting, const Item& item, Context&) {
+            const auto numbers = numbers_of(setting, item, 3, 3, "3 numbers [roll, pitch, yaw]");
+            return Vector3d(Vector3d(numbers[0], numbers[1], numbers[2]) * degree);
+          },
+          [](const Vector3d& value, const Context&) -> std::optional<Setting> {
+            // Degrees to 12 digits after the point: 90 comes back as 90, not as 89.99999999999999.
+            const Vector3d degrees = value / degree;
+            return vector_setting(
+                degrees.unaryExpr([](double angle) { return std::abs(angle) < 1e3 ? std::round(angle * 1e12) / 1e12 : angle; }));
+          }};
+}
+
+}  // namespace wavetank::scene

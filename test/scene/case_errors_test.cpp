@@ -1,0 +1,291 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "wavetank/common/error.h"
+#include "wavetank/scene/case_reader.h"
+
+using namespace wavetank;
+
+namespace {
+
+// Line by line, so that the numbers below can be counted.
+const char* const sound = R"(dimensions: 3
+duration: 2
+gravity: [0, 0, -9.81]
+fluid:
+  density: 1000
+  spacing: 0.1
+  fill:
+    - box: {min: [0, 0, 0], max: [1, 1, 1]}
+tank:
+  box: {size: [2, 1, 2]}
+bodies:
+  - {name: pier, box: {min: [1, 0, 0], max: [2, 1, 1]}}
+numerics:
+  support: 3
+  courant: 0.4
+  walls: {slip: no_slip}
+instruments:
+  pressure_probes:
+    - {name: P1, position: [0, 0, 0]}
+  wave_gauges:
+    - {name: H1, position: [0, 0]}
+  rate: 100
+publish_clock: false
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("the sound case has no " + from);
+  return text.replace(at, from.size(), to);
+}
+
+std::string error_of(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+  try {
+    read_case_text(yaml, "case.yaml", overrides);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+struct Fault {
+  const char* name;
+  const char* from;
+  const char* to;
+  std::vector<std::string> phrases;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+class BrokenCase : public testing::TestWithParam<Fault> {};
+
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string pattern = testing::TempDir() + "wavetank_case_XXXXXX";
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path_ = pattern;
+  }
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+  const std::string& path() const { return path_; }
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(path_ + "/" + name, std::ios::binary) << content;
+    return path_ + "/" + name;
+  }
+
+ private:
+  std::string path_;
+};
+
+std::string file_error(const std::string& path) {
+  try {
+    read_case_file(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+bool contains(const std::string& text, const std::string& phrase) { return text.find(phrase) != std::string::npos; }
+
+}  // namespace
+
+TEST(SoundCase, Reads) { EXPECT_EQ(error_of(sound), "(no error)"); }
+
+TEST_P(BrokenCase, IsRefusedInOneClearSentence) {
+  const Fault& fault = GetParam();
+  const std::string message = error_of(replaced(sound, fault.from, fault.to));
+  for (const std::string& phrase : fault.phrases) EXPECT_TRUE(contains(message, phrase)) << "\"" << phrase << "\" is not in: " << message;
+  EXPECT_FALSE(contains(message, "\n")) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BrokenCase,
+    testing::Values(
+        Fault{"UnknownKey", "density:", "densty:", {"case.yaml:5: fluid/densty is not a known key; did you mean fluid/density?"}},
+        Fault{"UnknownRootKey", "duration:", "durration:", {"case.yaml:2: durration is not a known key; did you mean duration?"}},
+        Fault{"UnknownKeyInAList",
+              "position:",
+              "postion:",
+              {"case.yaml:19: instruments/pressure_probes/0/postion is not", "did you mean instruments/pressure_probes/0/position?"}},
+        Fault{"KeyOfAnotherSection",
+              "  courant:",
+              "  slip: no_slip\n  courant:",
+              {"case.yaml:15: numerics/slip", "did you mean numerics/walls/slip?"}},
+        Fault{"KeyLikeNoOther",
+              "  spacing:",
+              "  xyzzyx: 1\n  spacing:",
+              {"case.yaml:6: fluid/xyzzyx", "the keys of fluid are density, viscosity"}},
+        Fault{"NegativeDensity", "1000", "-3", {"case.yaml:5: fluid/density is -3; it must be greater than 0 (kg/m³)"}},
+        Fault{"WordForANumber", "1000", "heavy", {"case.yaml:5: fluid/density is heavy; it must be a number greater than 0 (kg/m³)"}},
+        Fault{"NumberWithAUnit", "1000", "\"1000 kg\"", {"case.yaml:5: fluid/density is 1000 kg; it must be a number"}},
+        Fault{"ListForANumber", "1000", "[1, 2]", {"case.yaml:5: fluid/density is [1, 2]; it must be a number"}},
+        Fault{"EmptyValue", "density: 1000", "density:", {"case.yaml:5: fluid/density is empty; it must be a number"}},
+        Fault{"NotANumber", "1000", ".nan", {"case.yaml:5: fluid/density is .nan; it must be a finite number"}},
+        Fault{"Infinite", "duration: 2", "duration: .inf", {"case.yaml:2: duration is .inf; it must be a finite number (s)"}},
+        Fault{"TooLargeForADouble", "1000", "1e999", {"case.yaml:5: fluid/density is 1e999; it must be a finite number"}},
+        Fault{"ZeroDuration", "duration: 2", "duration: 0", {"case.yaml:2: duration is 0; it must be greater than 0 (s)"}},
+        Fault{"NoDuration", "duration: 2\n", "", {"case.yaml: duration is missing; it must be given (number, s)"}},
+        Fault{"FourDimensions", "dimensions: 3", "dimensions: 4", {"case.yaml:1: dimensions is 4; it must be 2 or 3"}},
+        Fault{"FractionOfADimension", "dimensions: 3", "dimensions: 2.5", {"case.yaml:1: dimensions is 2.5; it must be 2 or 3"}},
+        Fault{"ShortVector", "[0, 0, -9.81]", "[0, -9.81]", {"case.yaml:3: gravity is [0, -9.81]; it must be 3 numbers [x, y, z] (m/s²)"}},
+        Fault{"WordInAVector", "[0, 0, -9.81]", "[0, 0, down]", {"case.yaml:3: gravity/2 is down; it must be a number"}},
+        Fault{
+            "NoGravityForASoundSpeed", "[0, 0, -9.81]", "[0, 0, 0]", {"case.yaml:3: fluid/sound_speed is auto", "give fluid/sound_speed"}},
+        Fault{"SpacingAndParticles",
+              "  spacing: 0.1",
+              "  spacing: 0.1\n  particles: 10",
+              {"case.yaml:7: fluid has both spacing and particles; give exactly one of spacing and particles"}},
+        Fault{"NeitherSpacingNorParticles",
+              "  spacing: 0.1\n",
+              "",
+              {"case.yaml:4: fluid has neither spacing nor particles; give exactly one"}},
+        Fault{"ZeroSpacing", "spacing: 0.1", "spacing: 0", {"case.yaml:6: fluid/spacing is 0; it must be greater than 0 (m)"}},
+        Fault{"HalfAParticle", "spacing: 0.1", "particles: 10.5", {"case.yaml:6: fluid/particles is 10.5; it must be a whole number"}},
+        Fault{"NoFill",
+              "  fill:\n    - box: {min: [0, 0, 0], max: [1, 1, 1]}\n",
+              "",
+              {"case.yaml:4: fluid/fill is missing; it must be given"}},
+        Fault{"EmptyFill",
+              "fill:\n    - box: {min: [0, 0, 0], max: [1, 1, 1]}",
+              "fill: []",
+              {"case.yaml:7: fluid/fill is []; it must be a list of at least one region"}},
+        Fault{"FillIsNoList",
+              "fill:\n    - box:",
+              "fill:\n      box:",
+              {"case.yaml:7: fluid/fill is {box:", "must be a list, each entry a map of keys: box, seed"}},
+        Fault{"FillBoxInsideOut",
+              "max: [1, 1, 1]",
+              "max: [1, 0, 1]",
+              {"case.yaml:8: fluid/fill/0/box/max is [1, 0, 1]; it must be greater than fluid/fill/0/box/min, [0, 0, 0], in y (m)"}},
+        Fault{
+            "SeedWithoutLevel", "box: {min: [0, 0, 0], max: [1, 1, 1]}", "seed: [0, 0, 1]", {"case.yaml:8: fluid/fill/0/level is missing"}},
+        Fault{"SeedAboveTheLevel",
+              "box: {min: [0, 0, 0], max: [1, 1, 1]}",
+              "{seed: [0, 0, 1], level: 0.5}",
+              {"case.yaml:8: fluid/fill/0/level is 0.5; it must be above the seed, [0, 0, 1] (m)"}},
+        Fault{"SoundSpeed",
+              "  spacing:",
+              "  sound_speed: -1\n  spacing:",
+              {"case.yaml:6: fluid/sound_speed is -1; it must be greater than 0, or auto (m/s)"}},
+        Fault{"SoundSpeedWord",
+              "  spacing:",
+              "  sound_speed: fast\n  spacing:",
+              {"case.yaml:6: fluid/sound_speed is fast; it must be a number greater than 0, or auto (m/s)"}},
+        Fault{"NoTank", "tank:\n  box: {size: [2, 1, 2]}\n", "", {"case.yaml: tank is missing"}},
+        Fault{"TankOfBothKinds",
+              "size: [2, 1, 2]}",
+              "size: [2, 1, 2]}\n  mesh: a.stl",
+              {"case.yaml:11: tank has both box and mesh", "exactly one of box and mesh"}},
+        Fault{"ScaledBox",
+              "size: [2, 1, 2]}",
+              "size: [2, 1, 2]}\n  scale: 2",
+              {"case.yaml:11: tank has both box and scale", "exactly one of box and mesh"}},
+        Fault{"ScaleWithoutMesh", "box: {size: [2, 1, 2]}", "scale: 2", {"case.yaml:9: tank/mesh is missing"}},
+        Fault{"FlatTank",
+              "size: [2, 1, 2]",
+              "size: [2, 0, 2]",
+              {"case.yaml:10: tank/box/size is [2, 0, 2]; it must be greater than 0 in every direction (m)"}},
+        Fault{"BodyWithoutShape",
+              "box: {min: [1, 0, 0], max: [2, 1, 1]}",
+              "motion: fixed",
+              {"case.yaml:12: bodies/0 has neither box nor mesh"}},
+        Fault{"MovingBody", "name: pier", "name: pier, motion: free", {"case.yaml:12: bodies/0/motion is free; it must be fixed"}},
+        Fault{"BodyNamedTank", "name: pier", "name: tank", {"case.yaml:12: bodies/0/name is tank, which is reserved"}},
+        Fault{"NameOfTheFrame",
+              "publish_clock: false",
+              "world_frame: P1",
+              {"case.yaml:19: instruments/pressure_probes/0/name is P1, which is the world_frame"}},
+        Fault{"NameGivenTwice",
+              "name: H1",
+              "name: P1",
+              {"case.yaml:21: instruments/wave_gauges/0/name is P1, as is instruments/pressure_probes/0/name; every"}},
+        Fault{"NameWithASpace",
+              "name: H1",
+              "name: H 1",
+              {"case.yaml:21: instruments/wave_gauges/0/name is H 1; it must be a letter followed by"}},
+        Fault{"NameFromADigit", "name: H1", "name: 1H", {"case.yaml:21: instruments/wave_gauges/0/name is 1H; it must be a letter"}},
+        Fault{"ProbeWithoutName", "name: P1, ", "", {"case.yaml:19: instruments/pressure_probes/0/name is missing"}},
+        Fault{"UnknownWord", "no_slip", "sticky", {"case.yaml:16: numerics/walls/slip is sticky; it must be one of no_slip, free_slip"}},
+        Fault{"SupportTooSmall", "support: 3", "support: 1", {"case.yaml:14: numerics/support is 1; it must be from 2 to 8, or auto (Δx)"}},
+        Fault{"CourantTooGreat",
+              "courant: 0.4",
+              "courant: 2",
+              {"case.yaml:15: numerics/courant is 2; it must be greater than 0 and at most 1.5"}},
+        Fault{"ZeroRate", "rate: 100", "rate: 0", {"case.yaml:22: instruments/rate is 0; it must be greater than 0", "(Hz)"}},
+        Fault{"NumberForAFlag", "publish_clock: false", "publish_clock: 1", {"case.yaml:23: publish_clock is 1; it must be true or false"}},
+        Fault{"FrameWithASlash", "publish_clock: false", "world_frame: /map", {"case.yaml:23: world_frame is /map; it must be a tf frame"}},
+        Fault{"SectionIsANumber",
+              "walls: {slip: no_slip}",
+              "walls: 3",
+              {"case.yaml:16: numerics/walls is 3; it must be a map of keys: method,"}},
+        Fault{"KeyGivenTwice", "  courant:", "  support: 4\n  courant:", {"case.yaml:15: support is given twice, first on line 14"}},
+        Fault{"SectionGivenTwice", "publish_clock: false", "tank: {mesh: a.stl}", {"case.yaml:23: tank is given twice, first on line 9"}},
+        Fault{"UnclosedBracket", "[0, 0, -9.81]", "[0, 0, -9.81", {"case.yaml:", "not valid YAML"}},
+        Fault{"Tab", "  density", "\tdensity", {"case.yaml:", "not valid YAML"}},
+        Fault{"SecondDocument", "tank:", "---\ntank:", {"a second YAML document begins; a case is one document"}},
+        Fault{"AliasOfItself", "publish_clock: false", "title: &a [*a]", {"case.yaml:23: "}},
+        Fault{"ListForAKey", "publish_clock: false", "[1, 2]: 3", {"case.yaml:23: a key must be a single word"}}),
+    [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.name); });
+
+TEST(BrokenCases, GravityOutOfPlane) {
+  const std::string flat = replaced(replaced(sound, "dimensions: 3", "dimensions: 2"), "[0, 0, -9.81]", "[0, 1, -9.81]");
+  EXPECT_EQ(error_of(flat),
+            "case.yaml:3: gravity is [0, 1, -9.81]; it must be within the x–z plane of a 2-D case, [x, 0, z] or [x, z] (m/s²)");
+}
+
+TEST(BrokenCases, AsAWhole) {
+  EXPECT_TRUE(contains(error_of(""), "case.yaml: the case is empty; it must be a map of keys: title, dimensions")) << error_of("");
+  EXPECT_TRUE(contains(error_of("# nothing\n# at all\n"), "the case is empty"));
+  EXPECT_TRUE(contains(error_of("- 1\n- 2\n"), "case.yaml:1: the case is a list")) << error_of("- 1\n- 2\n");
+  EXPECT_TRUE(contains(error_of("solid cube\nfacet normal 0 0 1\n"), "case.yaml:1: the case is a single value, solid cube"));
+  EXPECT_TRUE(contains(error_of(std::string("title: a\nx: \0\1", 13)), "case.yaml:2: not a text file (byte 0 "));
+  EXPECT_TRUE(contains(error_of("title: a\nx: \xff\xfe\n"), "case.yaml:2: not a text file (byte 255 "));
+  const std::string deep = "title: " + std::string(300, '[') + std::string(300, ']') + "\n\n";
+  EXPECT_TRUE(contains(error_of(deep), "case.yaml:1: nested or repeated without end")) << error_of(deep);
+}
+
+// Parameters have no lines: a text of one line is not said to have any.
+TEST(BrokenCases, InParametersHaveNoLine) {
+  const std::string message = error_of("{duration: 2, fluid: {densty: 3}}");
+  EXPECT_EQ(message, "case.yaml: fluid/densty is not a known key; did you mean fluid/density?");
+}
+
+TEST(BrokenFiles, AreRefused) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(file_error(directory.path() + "/none.yaml"),
+            directory.path() + "/none.yaml: cannot open the case file: No such file or directory");
+  EXPECT_EQ(file_error(directory.path()), directory.path() + ": is a directory; a case is a YAML file");
+  EXPECT_TRUE(contains(file_error(""), "cannot open the case file"));
+  const std::string stl = directory.write("cube.stl", std::string(80, '\0') + "\x0c");
+  EXPECT_TRUE(contains(file_error(stl), stl + ":1: not a text file")) << file_error(stl);
+  const std::string broken = directory.write("broken.yaml", replaced(sound, "density:", "densty:"));
+  EXPECT_EQ(file_error(broken), broken + ":5: fluid/densty is not a known key; did you mean fluid/density?");
+  EXPECT_TRUE(contains(file_error("/dev/zero"), "larger than 16 MiB")) << file_error("/dev/zero");
+}
+
+TEST(BrokenOverrides, NameTheOption) {
+  const auto message = [](const std::string& key, const std::string& value) { return error_of(sound, {{key, value}}); };
+  EXPECT_EQ(message("fluid/densty", "3"), "--set fluid/densty: fluid/densty is not a known key; did you mean fluid/density?");
+  EXPECT_EQ(message("fluid/density", "-3"), "--set fluid/density: fluid/density is -3; it must be greater than 0 (kg/m³)");
+  EXPECT_EQ(message("fluid/density/x", "3"),
+            "--set fluid/density/x: fluid/density is a single value and has no keys, so fluid/density/x is not a known key");
+  EXPECT_EQ(message("bodies/3/name", "a"),
+            "--set bodies/3/name: bodies has 1 entry; its index must be from 0 to 1 (the last adds one), not 3");
+  EXPECT_TRUE(contains(message("bodies/pier/name", "a"), "its index must be from 0 to 1 (the last adds one), not pier"));
+  EXPECT_TRUE(contains(message("gravity/3", "1"), "--set gravity/3: gravity has 3 entries; its index must be from 0 to 2, not 3"));
+  EXPECT_TRUE(contains(message("", "1"), "--set: the key is empty"));
+  EXPECT_TRUE(contains(message("/duration", "1"), "--set /duration:"));
+  EXPECT_TRUE(contains(message("fluid/", "1"), "--set fluid/: fluid/ is not a known key"));
+  EXPECT_TRUE(contains(message("duration", ""), "--set duration: duration is empty; it must be a number"));
+  EXPECT_TRUE(contains(message("duration", "[1"), "--set duration: not valid YAML"));
+  EXPECT_TRUE(contains(message("numerics/walls", "{slp: no_slip}"),
+                       "--set numerics/walls: numerics/walls/slp is not a known key; did you mean numerics/walls/slip?"));
+  EXPECT_TRUE(contains(message("bodies/1/name", "buoy"), "--set bodies/1/name: bodies/1 has neither box nor mesh"));
+  EXPECT_TRUE(contains(error_of(replaced(sound, "walls: {slip: no_slip}", "walls: 3"), {{"numerics/walls/slip", "no_slip"}}),
+                       "--set numerics/walls/slip: numerics/walls is 3 (case.yaml:16), which is not a map of keys"));
+}
