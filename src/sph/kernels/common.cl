@@ -8,6 +8,9 @@ typedef float real;
 #define R(x) x##f
 #endif
 
+// Always inlined: a call in the neighbour loop would keep the compiler from vectorising it.
+#define INLINE static inline __attribute__((always_inline))
+
 typedef struct {
 #include "parameters.cl"
 } parameters_t;
@@ -59,14 +62,14 @@ typedef struct {
 #define LOAD_COUNT 4
 
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
-inline real kernel_value(__constant const parameters_t* p, real distance) {
+INLINE real kernel_value(__constant const parameters_t* p, real distance) {
   const real q = distance * p->inverse_smoothing;
   const real t = fmax(R(0.0), R(1.0) - R(0.5) * q);
   const real tt = t * t;
   return p->kernel_scale * tt * tt * (R(1.0) + R(2.0) * q);
 }
 
-inline real kernel_slope(__constant const parameters_t* p, real distance) {
+INLINE real kernel_slope(__constant const parameters_t* p, real distance) {
   const real t = fmax(R(0.0), R(1.0) - R(0.5) * distance * p->inverse_smoothing);
   return p->slope_scale * t * t * t;
 }

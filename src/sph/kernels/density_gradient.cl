@@ -10,7 +10,7 @@ typedef struct {
   real xx, xy, xz, yy, yz, zz;
 } sweep_t;
 
-inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   const real slope_volume = kernel_slope(p, sqrt(r2)) * a->state[FIELD_VOLUME * a->stride + j];
   const real weighted = slope_volume * (a->state[FIELD_COMPRESSION * a->stride + j] - a->compression);
   a->sum_x += weighted * rx;

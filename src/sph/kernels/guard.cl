@@ -11,7 +11,7 @@ typedef struct {
   int hits;
 } sweep_t;
 
-inline void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   // seen from where the elements before this one left the particle
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx - a->x, ry - a->y, rz - a->z);
   if (!view.over || view.distance > p->guard_distance || view.distance < -R(2.0) * BEHIND_TOLERANCE * p->spacing) return;

@@ -13,7 +13,7 @@ typedef struct {
   real clearance;
 } sweep_t;
 
-inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   const real slope_volume = kernel_slope(p, sqrt(r2)) * a->state[FIELD_VOLUME * a->stride + j];
   a->error_x += slope_volume * rx;
   a->error_z += slope_volume * rz;
@@ -22,13 +22,14 @@ inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 }
 
-inline void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
   const real weight = kernel_value(p, sqrt(r2)) * view.area;
   a->error_x += weight * view.normal_x;
   a->error_y += weight * view.normal_y;
   a->error_z += weight * view.normal_z;
-  if (view.over && view.distance > -BEHIND_TOLERANCE * p->spacing) a->clearance = fmin(a->clearance, view.distance);
+  const real clearance = view.over && view.distance > -BEHIND_TOLERANCE * p->spacing ? view.distance : p->support;
+  a->clearance = clearance < a->clearance ? clearance : a->clearance;
 }
 
 #include "sweep.cl"

@@ -12,7 +12,7 @@ typedef struct {
   real shepard;
 } sweep_t;
 
-inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   const real weight = kernel_value(p, sqrt(r2)) * a->state[FIELD_VOLUME * a->stride + j];
   const real density = p->density * (R(1.0) + a->state[FIELD_COMPRESSION * a->stride + j]);
   const real head = p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz;
@@ -20,7 +20,7 @@ inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   a->pressure += weight * (a->state[FIELD_PRESSURE * a->stride + j] - density * head);
 }
 
-inline void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
   a->shepard += shepard_term(p, &view, r2);
 }

@@ -23,7 +23,7 @@ typedef struct {
   real shepard, clearance;
 } sweep_t;
 
-inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   __global const real* state = a->state;
   const int n = a->stride;
   const real slope_volume = kernel_slope(p, sqrt(r2)) * state[FIELD_VOLUME * n + j];
@@ -74,10 +74,11 @@ inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 }
 
-inline void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
   a->shepard += shepard_term(p, &view, r2);
-  if (view.over && view.distance > -BEHIND_TOLERANCE * p->spacing) a->clearance = fmin(a->clearance, view.distance);
+  const real clearance = view.over && view.distance > -BEHIND_TOLERANCE * p->spacing ? view.distance : p->support;
+  a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real weight = kernel_value(p, sqrt(r2)) * view.area;
   const real normal_speed = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
   a->divergence -= normal_speed * weight;

@@ -17,7 +17,7 @@
 #define ALARM_SHEPARD 5       // γ bounded
 #define ALARM_COUNT 6
 
-inline bool not_finite(real value) {
+INLINE bool not_finite(real value) {
 #if USE_DOUBLE
   return (as_ulong(value) & 0x7ff0000000000000UL) == 0x7ff0000000000000UL;
 #else
@@ -101,7 +101,7 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_MASS 3
 #define ENERGY_COUNT 4
 
-inline void add_compensated(real value, real* sum, real* rest) {
+INLINE void add_compensated(real value, real* sum, real* rest) {
   const real wanted = value - *rest;
   const real total = *sum + wanted;
   *rest = (total - *sum) - wanted;

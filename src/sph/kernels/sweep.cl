@@ -9,7 +9,7 @@
 #include "cells.cl"
 
 #ifdef SWEEP_PARTICLES
-inline void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* cell_start, __global const real* state, int stride,
+INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* cell_start, __global const real* state, int stride,
                             real x, real y, real z) {
   __global const real* xs = state + FIELD_X * stride;
 #if DIMENSIONS == 3
@@ -43,7 +43,7 @@ inline void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
 #endif
 
 #ifdef SWEEP_WALLS
-inline void sweep_walls(sweep_t* sums, __constant const parameters_t* p, __global const int* wall_start, __global const real* walls, int wall_stride,
+INLINE void sweep_walls(sweep_t* sums, __constant const parameters_t* p, __global const int* wall_start, __global const real* walls, int wall_stride,
                         real x, real y, real z) {
   const int centre = cell_index(p, x, y, z);
   const int layer = DIMENSIONS == 3 ? p->cells_x * p->cells_y : p->cells_x;

@@ -2,7 +2,7 @@
 #include "common.cl"
 
 // Equation of state, and what the neighbour loop needs beside it.
-inline void derive(__constant const parameters_t* p, __global real* state, int stride, int i, real compression, real mass) {
+INLINE void derive(__constant const parameters_t* p, __global real* state, int stride, int i, real compression, real mass) {
 #if COLE
   const real ratio = R(1.0) + compression;
   const real cubed = ratio * ratio * ratio;
@@ -39,7 +39,7 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
 }
 
 // position += displacement, with what rounding loses carried on (Kahan).
-inline void move(__global real* state, int stride, int axis, int i, real displacement) {
+INLINE void move(__global real* state, int stride, int axis, int i, real displacement) {
   __global real* position = state + (FIELD_X + axis) * stride + i;
   __global real* rest = state + (FIELD_REST_X + axis) * stride + i;
   const real wanted = displacement - *rest;

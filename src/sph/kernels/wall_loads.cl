@@ -13,7 +13,7 @@ typedef struct {
 #endif
 } sweep_t;
 
-inline void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   __global const real* state = a->state;
   const int n = a->stride;
   const real volume = state[FIELD_VOLUME * n + j];
