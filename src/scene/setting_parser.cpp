@@ -9,6 +9,7 @@ namespace wavetank::scene {
 namespace {
 
 constexpr int greatest_depth = 32;               // a case needs 6; more is an alias that contains itself
+constexpr std::size_t longest_key = 64;          // an unclosed quote makes a key of half the file
 constexpr std::size_t greatest_count = 1000000;  // of settings, aliases expanded
 
 // Length of the UTF-8 character that starts at `at`, 0 if there is none.
@@ -66,7 +67,10 @@ class Converter {
  private:
   void add_entry(Setting& map, const YAML::Node& key, const YAML::Node& value, int depth) {
     const Place key_place = place(key.Mark().line);
-    if (!key.IsScalar()) throw Error(key_place.describe() + ": a key must be a single word");
+    if (!key.IsScalar()) throw Error(key_place.describe() + ": a key must be a single word, not a list or a map");
+    if (key.Scalar().size() > longest_key || key.Scalar().find_first_of(" \t\r\n") != std::string::npos) {
+      throw Error(key_place.describe() + ": a key must be a single word, not " + Setting::scalar(key.Scalar()).brief());
+    }
     if (const Setting* earlier = map.find(key.Scalar())) {
       throw Error(key_place.describe() + ": " + key.Scalar() + " is given twice" +
                   (has_lines_ ? ", first on line " + std::to_string(earlier->place.line) : "") + "; give it once");

@@ -229,7 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"Tab", "  density", "\tdensity", {"case.yaml:", "not valid YAML"}},
         Fault{"SecondDocument", "tank:", "---\ntank:", {"a second YAML document begins; a case is one document"}},
         Fault{"AliasOfItself", "publish_clock: false", "title: &a [*a]", {"case.yaml:23: "}},
-        Fault{"ListForAKey", "publish_clock: false", "[1, 2]: 3", {"case.yaml:23: a key must be a single word"}}),
+        Fault{"ListForAKey", "publish_clock: false", "[1, 2]: 3", {"case.yaml:23: a key must be a single word, not a list or a map"}},
+        Fault{"KeyOfTwoWords", "  density:", "  water density:", {"case.yaml:5: a key must be a single word, not water density"}},
+        Fault{"UnclosedQuote", "  density:", "  \"density:", {"case.yaml:"}}),
     [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.name); });
 
 TEST(BrokenCases, GravityOutOfPlane) {
