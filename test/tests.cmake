@@ -14,3 +14,24 @@ foreach(library ${rooms})
     endif()
   endforeach()
 endforeach()
+
+# Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
+if(TARGET wavetank_node)
+  find_package(rostest REQUIRED)
+  foreach(name wavetank_run_test plot_probes_test)
+    add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
+      ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
+  endforeach()
+  file(GLOB live_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/node/*.test)
+  foreach(live_test ${live_tests})
+    add_rostest(${live_test})
+  endforeach()
+  find_package(roslaunch REQUIRED)
+  roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
+endif()
+
+# ROS's helpers start "env python3" and look up their own host's name: the interpreter that has ROS first on the path, and no network.
+get_filename_component(python_directory "${PYTHON_EXECUTABLE}" DIRECTORY)
+get_property(all_tests DIRECTORY PROPERTY TESTS)
+set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
+  ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home")

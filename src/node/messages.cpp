@@ -115,7 +115,7 @@ Vector3d centre_of_volume(const TriangleMesh& mesh) {
   }
   // A surface that encloses next to nothing has no centre of volume to speak of.
   const double scale = (box.max - box.min).norm();
-  if (std::abs(volume) < 1e-9 * scale * scale * scale) return middle;
+  if (std::abs(volume) <= 1e-9 * scale * scale * scale) return middle;
   return middle + moment / volume;
 }
 

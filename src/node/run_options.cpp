@@ -1,10 +1,12 @@
 #include "wavetank/node/run_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "wavetank/common/error.h"
 #include "wavetank/common/version.h"
+#include "wavetank/node/parameters.h"
 
 namespace wavetank {
 
@@ -22,23 +24,41 @@ Override read_override(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+/// Takes every --set out of the arguments: CLI11's own lists would swallow the case behind it, and older ones cannot be told not to.
+std::vector<Override> take_overrides(std::vector<std::string>& arguments) {
+  const std::string flag = "--set";
+  std::vector<Override> overrides;
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == flag) {
+      if (i + 1 == arguments.size()) throw Error("--set needs KEY=VALUE, as in --set fluid/spacing=0.02");
+      overrides.push_back(read_override(arguments[++i]));
+    } else if (arguments[i].rfind(flag + "=", 0) == 0) {
+      overrides.push_back(read_override(arguments[i].substr(flag.size() + 1)));
+    } else {
+      others.push_back(arguments[i]);
+    }
+  }
+  arguments = others;
+  return overrides;
+}
+
 }  // namespace
 
 RunOptions read_command_line(int argc, char** argv) {
   RunOptions options;
-  std::vector<std::string> settings;
-  std::string duration, device;
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  options.overrides = take_overrides(arguments);
+  std::string shown_only, duration, device;
   bool check = false, list_devices = false, show_version = false;
 
   CLI::App app("wavetank_run: simulates a case without a ROS master and writes a bag.", "wavetank_run");
   app.footer(footer);
   app.add_option("CASE", options.case_file, "the case, a YAML file");
   app.add_option("--bag,-b", options.bag, "write the samples to this bag (an older one is replaced)")->type_name("FILE");
-  app.add_flag("--clouds", options.clouds, "with the free surface's particles in the bag, at rate publishing/cloud_bag_rate");
+  app.add_flag("--clouds", options.clouds, "with the free surface's particles in the bag, at rate rates/cloud_bag");
   app.add_option("--duration", duration, "simulated time instead of the case's duration, s")->type_name("S");
-  app.add_option("--set", settings, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->take_all();
+  app.add_option("--set", shown_only, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")->type_name("KEY=VALUE");
   app.add_option("--device", device, "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name")->type_name("DEVICE");
   app.add_option("--restore", options.restore, "go on from this snapshot of the same case")->type_name("FILE");
   app.add_option("--save", options.save, "write a snapshot when the run ends")->type_name("FILE");
@@ -49,7 +69,8 @@ RunOptions read_command_line(int argc, char** argv) {
   app.add_flag("--version", show_version, "print the version");
 
   try {
-    app.parse(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     std::fputs(app.help().c_str(), stdout);
     options.action = RunOptions::Action::nothing;
@@ -68,9 +89,8 @@ RunOptions read_command_line(int argc, char** argv) {
   }
   if (options.case_file.empty()) throw Error("give the case, a YAML file: wavetank_run CASE.yaml --bag out.bag");
   if (options.clouds && options.bag.empty()) throw Error("--clouds needs --bag FILE to write them to");
-  for (const std::string& setting : settings) options.overrides.push_back(read_override(setting));
   if (!duration.empty()) options.overrides.push_back({"duration", duration});
-  if (!device.empty()) options.overrides.push_back({"device", device});
+  if (!device.empty()) options.overrides.push_back({"device", yaml_of(device)});  // quoted: 0:1 is a number to some YAML
   if (check) options.action = RunOptions::Action::check;
   return options;
 }

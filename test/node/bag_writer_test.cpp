@@ -1,0 +1,69 @@
+#include "wavetank/node/bag_writer.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <std_msgs/String.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace wavetank {
+
+namespace fs = std::filesystem;
+
+class BagWriterTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "bag_writer_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std_msgs::String text(const std::string& data) {
+    std_msgs::String message;
+    message.data = data;
+    return message;
+  }
+  fs::path folder_;
+};
+
+TEST_F(BagWriterTest, WritesUnderATemporaryNameAndRenamesAtTheEnd) {
+  BagWriter writer(path("a.bag"), "/wavetank");
+  writer.write("note", ros::Time(0.5), text("hello"));
+  EXPECT_FALSE(fs::exists(path("a.bag")));
+  EXPECT_TRUE(fs::exists(path("a.bag.active")));
+  writer.finish();
+  EXPECT_TRUE(fs::exists(path("a.bag")));
+  EXPECT_FALSE(fs::exists(path("a.bag.active")));
+  EXPECT_THROW(writer.write("note", ros::Time(1.0), text("late")), Error);
+}
+
+TEST_F(BagWriterTest, ReadsBackWithTopicsTimesAndLatching) {
+  {
+    BagWriter writer(path("a.bag"), "/wavetank");
+    writer.write("note", ros::Time(0, 0), text("at zero"));
+    writer.write_latched("/case", ros::Time(0.5), text("kept"));
+    writer.finish();
+  }
+  rosbag::Bag bag(path("a.bag"));
+  rosbag::View view(bag);
+  std::vector<std::string> topics;
+  for (const rosbag::MessageInstance& entry : view) topics.push_back(entry.getTopic() + "=" + entry.instantiate<std_msgs::String>()->data);
+  EXPECT_EQ(topics, (std::vector<std::string>{"/wavetank/note=at zero", "/case=kept"}));
+  EXPECT_EQ(view.getBeginTime(), ros::TIME_MIN);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    EXPECT_EQ(connection->header->count("latching") == 1, connection->topic == "/case") << connection->topic;
+}
+
+TEST_F(BagWriterTest, LeavesNothingWhenItIsNotFinished) {
+  { BagWriter(path("a.bag"), "/wavetank").write("note", ros::Time(1.0), text("lost")); }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(BagWriterTest, RefusesPlacesWhereNoBagCanBe) {
+  EXPECT_THROW(BagWriter(path("no/such/a.bag"), "/wavetank"), Error);
+  EXPECT_THROW(BagWriter(folder_.string(), "/wavetank"), Error);
+  EXPECT_THROW(BagWriter("/proc/a.bag", "/wavetank"), Error);
+}
+
+}  // namespace wavetank

@@ -1,0 +1,78 @@
+#include "wavetank/node/markers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "example_case.h"
+
+namespace wavetank {
+
+using test::example_case;
+using test::example_layout;
+using visualization_msgs::Marker;
+
+namespace {
+
+const Marker& find(const visualization_msgs::MarkerArray& drawing, const std::string& group) {
+  const auto found = std::find_if(drawing.markers.begin(), drawing.markers.end(), [&](const Marker& m) { return m.ns == group; });
+  if (found == drawing.markers.end()) throw std::runtime_error("no marker of " + group);
+  return *found;
+}
+
+}  // namespace
+
+TEST(Markers, DrawTankBodiesProbesAndGauges) {
+  const auto drawing = markers(example_case(), example_layout());
+  EXPECT_EQ(drawing.markers.front().action, Marker::DELETEALL);
+  const Marker& tank = find(drawing, "tank");
+  EXPECT_EQ(tank.type, Marker::TRIANGLE_LIST);
+  EXPECT_EQ(tank.points.size(), 30U) << "ten triangles of an open box";
+  EXPECT_LT(tank.color.a, 0.5F);
+  EXPECT_EQ(find(drawing, "bodies").points.size(), 36U);
+  EXPECT_EQ(find(drawing, "bodies").color.a, 1.0F);
+  EXPECT_EQ(find(drawing, "probe names").text, "P1");
+  EXPECT_EQ(find(drawing, "probes").pose.position.z, 3.1);
+  const Marker& gauge = find(drawing, "gauges");
+  ASSERT_EQ(gauge.points.size(), 2U);
+  EXPECT_EQ(gauge.points[0].z, 3.0);
+  EXPECT_EQ(gauge.points[1].z, 4.0);
+  std::set<std::pair<std::string, int>> names;
+  for (const Marker& marker : drawing.markers) {
+    EXPECT_EQ(marker.header.frame_id, "basin");
+    EXPECT_TRUE(marker.header.stamp.isZero());
+    EXPECT_TRUE(names.emplace(marker.ns, marker.id).second) << marker.ns << " " << marker.id << " twice";
+  }
+}
+
+TEST(Markers, KeepAPackageMeshAsAResource) {
+  Case example = example_case();
+  MeshSource source;
+  source.uri = "package://somewhere/hull.STL";
+  source.scale = 0.001;
+  source.translation = {1, 2, 3};
+  source.rotation = {0, 0, M_PI / 2};
+  example.bodies[0].shape = source;
+  const Marker& body = find(markers(example, example_layout()), "bodies");
+  EXPECT_EQ(body.type, Marker::MESH_RESOURCE);
+  EXPECT_EQ(body.mesh_resource, source.uri);
+  EXPECT_EQ(body.scale.y, 0.001);
+  EXPECT_EQ(body.pose.position.y, 2.0);
+  EXPECT_NEAR(body.pose.orientation.z, std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(body.points.empty());
+}
+
+TEST(Markers, SendOtherMeshesAsTriangles) {
+  Case example = example_case();
+  MeshSource source;
+  source.uri = "hull.stl";
+  example.bodies[0].shape = source;
+  EXPECT_EQ(find(markers(example, example_layout()), "bodies").type, Marker::TRIANGLE_LIST);
+}
+
+TEST(FeatureEdges, OfABoxAreItsTwelveEdges) { EXPECT_EQ(feature_edges(box_mesh({{0, 0, 0}, {1, 2, 3}}, false, "box"), 0.5).size(), 24U); }
+
+TEST(FeatureEdges, OfAnOpenBoxHaveItsRim) { EXPECT_EQ(feature_edges(box_mesh({{0, 0, 0}, {1, 2, 3}}, true, "box"), 0.5).size(), 24U); }
+
+}  // namespace wavetank

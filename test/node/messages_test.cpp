@@ -1,0 +1,166 @@
+#include "wavetank/node/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "example_case.h"
+#include "wavetank/scene/case_reader.h"
+
+namespace wavetank {
+
+using test::example_case;
+using test::example_layout;
+
+TEST(SampleMessages, ProbesAreInGaugePascalsWithNamesAndPositions) {
+  const SampleMessages messages(example_case(), example_layout());
+  const ProbeArray array = messages.probes({0.25, {100.0, -7.5}}, StampClock());
+  EXPECT_EQ(array.header.stamp, ros::Time(0.25));
+  EXPECT_EQ(array.header.frame_id, "basin");
+  EXPECT_EQ(array.names, (std::vector<std::string>{"P1", "P2"}));
+  ASSERT_EQ(array.positions.size(), 2U);
+  EXPECT_EQ(array.positions[1].x, 2.0);
+  EXPECT_EQ(array.positions[1].y, 2.5);
+  EXPECT_EQ(array.positions[1].z, 3.2);
+  EXPECT_EQ(array.pressures, (std::vector<double>{100.0, -7.5}));
+}
+
+TEST(SampleMessages, FluidPressureAddsTheReferenceInTheProbesFrame) {
+  const SampleMessages messages(example_case(), example_layout());
+  const sensor_msgs::FluidPressure message = messages.probe(1, {0.25, {100.0, -7.5}}, StampClock());
+  EXPECT_EQ(message.header.frame_id, "basin/probes/P2");
+  EXPECT_EQ(message.header.stamp, ros::Time(0.25));
+  EXPECT_DOUBLE_EQ(message.fluid_pressure, 101317.5);
+  EXPECT_EQ(message.variance, 0.0);
+}
+
+TEST(SampleMessages, GaugesStandOnTheTanksLowestPoint) {
+  const SampleMessages messages(example_case(), example_layout());
+  const WaveGaugeArray array = messages.gauges({0.5, {3.4}}, StampClock());
+  ASSERT_EQ(array.positions.size(), 1U);
+  EXPECT_EQ(array.positions[0].x, 2.5);
+  EXPECT_EQ(array.positions[0].z, 3.0);
+  EXPECT_EQ(array.levels, (std::vector<double>{3.4}));
+}
+
+TEST(SampleMessages, WrenchesAreTheSumOfPressureAndViscousParts) {
+  const SampleMessages messages(example_case(), example_layout());
+  WrenchSample sample;
+  sample.time = 0.5;
+  sample.wrenches.resize(2);
+  sample.wrenches[1].pressure_force = {1, 2, 3};
+  sample.wrenches[1].viscous_force = {10, 20, 30};
+  sample.wrenches[1].pressure_torque = {4, 5, 6};
+  sample.wrenches[1].viscous_torque = {40, 50, 60};
+  const auto total = messages.wrench(1, SampleMessages::Part::total, sample, StampClock());
+  const auto pressure = messages.wrench(1, SampleMessages::Part::pressure, sample, StampClock());
+  const auto viscous = messages.wrench(1, SampleMessages::Part::viscous, sample, StampClock());
+  EXPECT_EQ(total.header.frame_id, "basin/bodies/box");
+  EXPECT_EQ(total.wrench.force.y, 22.0);
+  EXPECT_EQ(total.wrench.torque.z, 66.0);
+  EXPECT_EQ(pressure.wrench.force.y, 2.0);
+  EXPECT_EQ(viscous.wrench.torque.x, 40.0);
+  EXPECT_EQ(messages.wrench(0, SampleMessages::Part::total, sample, StampClock()).header.frame_id, "basin");
+}
+
+TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {
+  const SampleMessages messages(example_case(), example_layout());
+  Samples samples;
+  for (const double time : {0.0, 0.001, 0.002}) samples.pressures.push_back({time, {1.0, 2.0}});
+  samples.levels.push_back({0.0, {3.1}});
+  WrenchSample wrench;
+  wrench.wrenches.resize(2);
+  samples.wrenches.push_back(wrench);
+  std::map<std::string, std::vector<ros::Time>> stamps;
+  messages.emit(samples, StampClock(),
+                [&stamps](const std::string& topic, const auto& message) { stamps[topic].push_back(message.header.stamp); });
+  const std::vector<ros::Time> three{ros::Time(0.0), ros::Time(0.001), ros::Time(0.002)};
+  EXPECT_EQ(stamps["probes"], three);
+  EXPECT_EQ(stamps["probes/P1"], three);
+  EXPECT_EQ(stamps["probes/P2"], three);
+  for (const char* topic : {"gauges", "bodies/tank/wrench", "bodies/tank/wrench/pressure", "bodies/tank/wrench/viscous",
+                            "bodies/box/wrench", "bodies/box/wrench/pressure", "bodies/box/wrench/viscous"})
+    EXPECT_EQ(stamps[topic].size(), 1U) << topic;
+  EXPECT_EQ(stamps.size(), 10U);
+}
+
+TEST(Names, BecomeValidGraphNames) {
+  EXPECT_EQ(probe_topic("bow 1-a"), "probes/bow_1_a");
+  EXPECT_EQ(body_topic("box"), "bodies/box/wrench");
+}
+
+TEST(Names, ThatShareATopicAreRefused) {
+  Case example = example_case();
+  example.instruments.pressure_probes = {{"P 1", {0, 0, 0}}, {"P_1", {0, 0, 0}}};
+  EXPECT_THROW(SampleMessages(example, example_layout()), Error);
+  example = example_case();
+  example.bodies[0].name = "tank";
+  try {
+    check_names(example);
+    FAIL() << "a body named as the tank was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "body 'tank' and the tank would both publish on 'bodies/tank/wrench': give one of them another name");
+  }
+}
+
+TEST(CentreOfVolume, OfAWedgeFarAway) {
+  // A right prism over the triangle (0,0) (3,0) (0,3) in x-z, 1 deep: its centre is a third along.
+  TriangleMesh wedge;
+  const Vector3d far(1000, -2000, 500);
+  for (const double y : {0.0, 1.0})
+    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(3, y, 0), Vector3d(0, y, 3)}) wedge.vertices.push_back(far + corner);
+  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  EXPECT_LT((centre_of_volume(wedge) - far - Vector3d(1.0, 0.5, 1.0)).norm(), 1e-9);
+}
+
+TEST(CentreOfVolume, OfAFlatMeshIsTheMiddleOfItsBox) {
+  TriangleMesh flat;
+  flat.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 4, 0}};
+  flat.triangles = {{0, 1, 2}};
+  EXPECT_LT((centre_of_volume(flat) - Vector3d(1, 2, 0)).norm(), 1e-12);
+}
+
+TEST(StaticTransforms, PlaceProbesAndBodiesUnderTheWorldFrame) {
+  const auto transforms = static_transforms(example_case(), example_layout());
+  ASSERT_EQ(transforms.size(), 3U);
+  for (const auto& transform : transforms) {
+    EXPECT_EQ(transform.header.frame_id, "basin");
+    EXPECT_EQ(transform.transform.rotation.w, 1.0);
+  }
+  EXPECT_EQ(transforms[0].child_frame_id, "basin/probes/P1");
+  EXPECT_EQ(transforms[0].transform.translation.z, 3.1);
+  EXPECT_EQ(transforms[2].child_frame_id, "basin/bodies/box");
+  EXPECT_NEAR(transforms[2].transform.translation.x, 1.75, 1e-12);
+  EXPECT_NEAR(transforms[2].transform.translation.z, 3.25, 1e-12);
+}
+
+TEST(StatusMessage, CarriesStateEnergiesAndRun) {
+  SolverState solver;
+  solver.time = 0.5;
+  solver.step = 17;
+  solver.particles = 4711;
+  solver.guard_hits = 3;
+  EnergySample energies;
+  energies.kinetic = 1.5;
+  energies.mass = 998.0;
+  RunState run;
+  run.phase = SolverStatus::RUNNING;
+  run.device = "a device";
+  run.real_time_factor = 0.25;
+  const SolverStatus status = status_message(example_case(), solver, energies, run, StampClock());
+  EXPECT_EQ(status.header.stamp, ros::Time(0.5));
+  EXPECT_EQ(status.header.frame_id, "basin");
+  EXPECT_EQ(status.title, "an example");
+  EXPECT_EQ(status.device, "a device");
+  EXPECT_EQ(status.phase, SolverStatus::RUNNING);
+  EXPECT_EQ(status.step, 17U);
+  EXPECT_EQ(status.particles, 4711U);
+  EXPECT_EQ(status.kinetic_energy, 1.5);
+  EXPECT_EQ(status.mass, 998.0);
+  EXPECT_EQ(status.real_time_factor, 0.25);
+  EXPECT_EQ(status.guard_hits, 3U);
+  EXPECT_EQ(status.duration, 2.0);
+}
+
+}  // namespace wavetank

@@ -1,0 +1,297 @@
+#!/usr/bin/env python3
+"""wavetank_run as a user meets it: what it prints, writes, refuses, and how it ends."""
+
+import os
+import subprocess
+import unittest
+
+import rosbag
+
+import program_runner
+from program_runner import ProgramTest, interrupt, read_line_with
+
+BODY = {"name": "step", "box": {"min": [0.16, -0.1, 0.0], "max": [0.24, 0.1, 0.08]}, "motion": "fixed"}
+
+
+def stamps(path, topic):
+    with rosbag.Bag(path) as bag:
+        return [message.header.stamp.to_nsec() for _, message, _ in bag.read_messages(topics=[topic])]
+
+
+def milliseconds(count):
+    return [i * 1000000 for i in range(count)]
+
+
+class Information(ProgramTest):
+    def test_help_names_every_option_and_exit_code(self):
+        result = self.run_program("--help")
+        self.assert_runs(result)
+        for word in ["--bag", "--clouds", "--duration", "--set", "--device", "--restore", "--save", "--profile", "--check", "--list-devices", "Exit code"]:
+            self.assertIn(word, result.stdout)
+
+    def test_version(self):
+        result = self.run_program("--version")
+        self.assert_runs(result)
+        self.assertRegex(result.stdout, r"^wavetank \d+\.\d+\.\d+\n$")
+
+    def test_devices(self):
+        result = self.run_program("--list-devices")
+        self.assert_runs(result)
+        self.assertRegex(result.stdout, r"^\d+:\d+ ")
+
+    def test_check_reports_and_writes_nothing(self):
+        result = self.run_program("--check", self.case())
+        self.assert_runs(result)
+        for word in ["particles", "wall elements", "memory", "estimated time"]:
+            self.assertIn(word, result.stdout)
+        self.assertEqual(self.files(), ["case.yaml"])
+
+
+class Bags(ProgramTest):
+    def test_holds_every_sample_exactly_once(self):
+        self.assert_runs(self.run_program(self.case(), "--bag", "out.bag", "--clouds"))
+        self.assertEqual(self.files(), ["case.yaml", "out.bag"])
+        bag = self.path("out.bag")
+        for topic in ["probes", "probes/P1", "probes/P2", "gauges", "bodies/tank/wrench", "bodies/step/wrench", "bodies/step/wrench/pressure"]:
+            self.assertEqual(stamps(bag, "/wavetank/" + topic), milliseconds(51), topic)
+
+    def test_has_the_nodes_topics_types_and_frames(self):
+        self.assert_runs(self.run_program(self.case(), "--bag", "out.bag", "--clouds"))
+        with rosbag.Bag(self.path("out.bag")) as bag:
+            kinds = {topic: info.msg_type for topic, info in bag.get_type_and_topic_info()[1].items()}
+            first = {topic: message for topic, message, _ in reversed(list(bag.read_messages()))}
+            latched = {c.topic for c in bag._get_connections() if c.header.get("latching") in ("1", b"1")}
+        self.assertEqual(kinds["/wavetank/probes"], "wavetank/ProbeArray")
+        self.assertEqual(kinds["/wavetank/gauges"], "wavetank/WaveGaugeArray")
+        self.assertEqual(kinds["/wavetank/probes/P1"], "sensor_msgs/FluidPressure")
+        self.assertEqual(kinds["/wavetank/bodies/step/wrench"], "geometry_msgs/WrenchStamped")
+        self.assertEqual(kinds["/wavetank/status"], "wavetank/SolverStatus")
+        self.assertEqual(kinds["/wavetank/free_surface"], "sensor_msgs/PointCloud2")
+        self.assertEqual(latched, {"/wavetank/markers", "/wavetank/case", "/tf_static"})
+        self.assertEqual(first["/wavetank/probes"].header.frame_id, "tank")
+        self.assertEqual(list(first["/wavetank/probes"].names), ["P1", "P2"])
+        self.assertEqual(first["/wavetank/probes/P1"].header.frame_id, "tank/probes/P1")
+        self.assertEqual(first["/wavetank/bodies/step/wrench"].header.frame_id, "tank/bodies/step")
+        self.assertIn("A small tank at rest", first["/wavetank/case"].data)
+
+    def test_the_case_in_a_bag_repeats_the_run(self):
+        self.assert_runs(self.run_program(self.case(), "--bag", "first.bag", "--set", "fluid/density=998"))
+        with rosbag.Bag(self.path("first.bag")) as bag:
+            text = next(bag.read_messages(topics=["/wavetank/case"])).message.data
+        with open(self.path("again.yaml"), "w") as file:
+            file.write(text)
+        self.assert_runs(self.run_program("again.yaml", "--bag", "second.bag"))
+
+        def pressures(name):
+            with rosbag.Bag(self.path(name)) as bag:
+                return [message.pressures for _, message, _ in bag.read_messages(topics=["/wavetank/probes"])]
+
+        self.assertEqual(pressures("first.bag"), pressures("second.bag"))
+
+    def test_replaces_an_older_bag_only_when_done(self):
+        with open(self.path("out.bag"), "w") as file:
+            file.write("old")
+        self.assert_refused(self.run_program(self.case(), "--bag", "out.bag", "--device", "no such device"))
+        with open(self.path("out.bag")) as file:
+            self.assertEqual(file.read(), "old")
+        self.assert_runs(self.run_program(self.case(), "--bag", "out.bag"))
+        self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)
+
+    def test_duration_and_set_replace_keys(self):
+        self.assert_runs(self.run_program(self.case(), "--bag", "out.bag", "--duration", "0.02", "--set", "instruments/rate=500"))
+        self.assertEqual(stamps(self.path("out.bag"), "/wavetank/probes"), [i * 2000000 for i in range(11)])
+
+
+class Output(ProgramTest):
+    def test_plain_lines_and_a_summary_when_not_on_a_terminal(self):
+        result = self.run_program(self.case())
+        self.assert_runs(result)
+        self.assertEqual(result.stderr, "")
+        self.assertNotIn("\r", result.stdout)
+        self.assertIn("running", result.stdout)
+        for word in ["simulated time", "steps", "wall time", "particle-steps/s", "guard hits"]:
+            self.assertIn(word, result.stdout)
+
+    def test_a_bar_on_a_terminal(self):
+        result = subprocess.run(
+            ["script", "-qec", "%s %s" % (program_runner.PROGRAM, self.case()), "/dev/null"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            timeout=120,
+        )
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"\r", result.stdout)
+        self.assertIn(b"running [", result.stdout)
+
+    def test_quiet_prints_nothing(self):
+        result = self.run_program(self.case(), "--quiet")
+        self.assert_runs(result)
+        self.assertEqual(result.stdout + result.stderr, "")
+
+    def test_profile_lists_kernels(self):
+        result = self.run_program(self.case(), "--profile")
+        self.assert_runs(result)
+        self.assertIn("launches", result.stdout)
+
+
+class Endings(ProgramTest):
+    def test_ctrl_c_leaves_a_readable_bag(self):
+        process = self.start_program(self.case(duration=1000.0), "--bag", "out.bag", "--save", "end.snapshot")
+        read_line_with(process, "running")
+        interrupt(process)
+        self.assertEqual(process.wait(timeout=30), 130)
+        self.assertEqual(self.files(), ["case.yaml", "end.snapshot", "out.bag"])
+        found = stamps(self.path("out.bag"), "/wavetank/probes")
+        self.assertEqual(found, milliseconds(len(found)))
+        self.assertGreater(len(found), 1)
+
+    def test_ctrl_c_during_the_start_leaves_nothing(self):
+        process = self.start_program(self.case(fluid__spacing=0.002), "--bag", "out.bag")
+        read_line_with(process, "%")
+        interrupt(process)
+        self.assertEqual(process.wait(timeout=30), 130)
+        self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_a_violation_ends_the_bag_and_writes_a_snapshot(self):
+        # A speed of sound far below the fall's own speed: the watchdog's bound of half of it is passed at once.
+        case = self.case(
+            duration=2.0,
+            fluid__sound_speed=0.6,
+            fluid__fill=[{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}],
+            bodies=None,
+        )
+        result = self.run_program(case, "--bag", "out.bag")
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        self.assertEqual(self.files(), ["case.yaml", "out.bag", "out.snapshot"])
+        self.assertIn("particle", result.stderr)
+        self.assertIn("out.snapshot", result.stderr)
+        with rosbag.Bag(self.path("out.bag")) as bag:
+            last = [message for _, message, _ in bag.read_messages(topics=["/wavetank/status"])][-1]
+        self.assertEqual(last.phase, last.FAILED)
+        self.assertIn("particle", last.failure)
+
+
+class Snapshots(ProgramTest):
+    def test_a_restored_run_goes_on_bit_for_bit(self):
+        case = self.case()
+        self.assert_runs(self.run_program(case, "--bag", "whole.bag"))
+        self.assert_runs(self.run_program(case, "--bag", "first.bag", "--duration", "0.02", "--save", "middle.snapshot"))
+        self.assert_runs(self.run_program(case, "--bag", "second.bag", "--restore", "middle.snapshot"))
+
+        def pressures(name):
+            with rosbag.Bag(self.path(name)) as bag:
+                return {message.header.stamp.to_nsec(): message.pressures for _, message, _ in bag.read_messages(topics=["/wavetank/probes"])}
+
+        whole, second = pressures("whole.bag"), pressures("second.bag")
+        self.assertGreater(len(second), 20)
+        for stamp, values in second.items():
+            self.assertEqual(values, whole[stamp], stamp)
+
+    def test_truncated_and_foreign_snapshots_are_refused(self):
+        case = self.case()
+        self.assert_runs(self.run_program(case, "--duration", "0.01", "--save", "a.snapshot"))
+        with open(self.path("a.snapshot"), "rb") as file:
+            whole = file.read()
+        for length in [0, 7, len(whole) // 2, len(whole) - 1]:
+            with open(self.path("cut.snapshot"), "wb") as file:
+                file.write(whole[:length])
+            self.assert_refused(self.run_program(case, "--restore", "cut.snapshot"), "cut.snapshot")
+        self.assert_refused(self.run_program(case, "--restore", "case.yaml"), "case.yaml")
+        self.assert_refused(self.run_program(case, "--restore", "none.snapshot"), "none.snapshot")
+        other = self.case("other.yaml", fluid__spacing=0.025)
+        self.assert_refused(self.run_program(other, "--restore", "a.snapshot"), "a.snapshot")
+
+    def test_a_place_that_cannot_be_written_is_told_before_the_start(self):
+        result = self.run_program(self.case(), "--save", "no/such/end.snapshot")
+        self.assert_refused(result, "no/such/end.snapshot")
+        self.assertNotIn("%", result.stdout)
+
+
+class Refusals(ProgramTest):
+    def test_command_lines(self):
+        self.assert_refused(self.run_program(), "CASE.yaml")
+        self.assert_refused(self.run_program(self.case(), "--nonsense"), "--nonsense")
+        self.assert_refused(self.run_program(self.case(), "--set", "duration"), "duration")
+        self.assert_refused(self.run_program(self.case(), "--clouds"), "--bag")
+        self.assert_refused(self.run_program("no_such_case.yaml"), "no_such_case.yaml")
+
+    def test_unwritable_bags_are_told_before_the_start(self):
+        for name in ["no/such/out.bag", ".", "/proc/out.bag"]:
+            result = self.run_program(self.case(), "--bag", name)
+            self.assert_refused(result, name)
+            self.assertNotIn("%", result.stdout)
+        self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_unknown_device(self):
+        self.assert_refused(self.run_program(self.case(), "--bag", "out.bag", "--device", "no such device"), "no such device")
+        self.assert_refused(self.run_program("--check", self.case(), "--device", "9:9"), "9:9")
+        self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_broken_cases(self):
+        with open(self.path("corrupt.stl"), "w") as file:
+            file.write("solid nothing\nfacet normal 0 0 1\n outer loop\n  vertex 0 0\n")
+        with open(self.path("empty.stl"), "w") as file:
+            file.write("")
+        bodies = lambda **change: [dict(BODY, **change)]  # noqa: E731
+        probe = lambda *position: [{"name": "P1", "position": list(position)}]  # noqa: E731
+        mesh_body = lambda name: [{"name": "step", "mesh": name, "motion": "fixed"}]  # noqa: E731
+        broken = [
+            ("an unknown key", dict(fluid__densty=1000.0), "densty"),
+            ("an unknown group", dict(nummerics={"scheme": "delta_sph"}), "nummerics"),
+            ("text for a number", dict(fluid__density="heavy"), "density"),
+            ("a negative density", dict(fluid__density=-1.0), "density"),
+            ("no duration", dict(duration=None), "duration"),
+            ("a duration of nothing", dict(duration=0.0), "duration"),
+            ("four dimensions", dict(dimensions=4), "dimensions"),
+            ("neither spacing nor particles", dict(fluid__spacing=None), "spacing"),
+            ("both of them", dict(fluid__particles=1000), "particles"),
+            ("a spacing of zero", dict(fluid__spacing=0.0), "spacing"),
+            ("an unknown scheme", dict(numerics__scheme="magic"), "magic"),
+            ("gravity of two numbers", dict(gravity=[0, -9.81]), "gravity"),
+            ("no fluid", dict(fluid__fill=[]), "fill"),
+            ("a fill turned inside out", dict(fluid__fill=[{"box": {"min": [0.4, 0, 0.2], "max": [0, 0, 0]}}]), "fill"),
+            ("fluid outside the tank", dict(fluid__fill=[{"box": {"min": [0.3, 0, 0], "max": [0.8, 0, 0.2]}}]), "tank"),
+            ("fluid only above nothing", dict(fluid__fill=[{"box": {"min": [5, 0, 5], "max": [6, 0, 6]}}]), ""),
+            ("no tank", dict(tank=None), "tank"),
+            ("a tank of no size", dict(tank={"box": {"size": [0, 0, 0.4]}}), "size"),
+            ("a missing mesh", dict(bodies=mesh_body("none.stl")), "none.stl"),
+            ("a corrupt mesh", dict(bodies=mesh_body("corrupt.stl")), "corrupt.stl"),
+            ("an empty mesh", dict(bodies=mesh_body("empty.stl")), "empty.stl"),
+            ("a mesh of an unknown package", dict(bodies=mesh_body("package://no_such_package/a.stl")), "no_such_package"),
+            ("an unknown motion", dict(bodies=bodies(motion="dancing")), "dancing"),
+            ("two bodies of one name", dict(bodies=bodies() + bodies()), "step"),
+            ("a body named as the tank", dict(bodies=bodies(name="tank")), "tank"),
+            ("two probes of one name", dict(instruments__pressure_probes=probe(0, 0, 0.05) + probe(0.4, 0, 0.05)), "P1"),
+            ("a probe inside a body", dict(instruments__pressure_probes=probe(0.2, 0, 0.04)), "P1"),
+            ("a probe outside the tank", dict(instruments__pressure_probes=probe(9, 0, 0.04)), "P1"),
+            ("a rate of zero", dict(instruments__rate=0), "rate"),
+        ]
+        for what, changes, word in broken:
+            with self.subTest(what):
+                case = self.case(**changes)
+                before = self.files()
+                self.assert_refused(self.run_program(case, "--bag", "out.bag"), word)
+                self.assertEqual(self.files(), before)
+
+    def test_broken_yaml(self):
+        with open(self.path("broken.yaml"), "w") as file:
+            file.write("title: [unfinished\nfluid: {")
+        self.assert_refused(self.run_program("broken.yaml"), "broken.yaml")
+
+    def test_a_full_disk(self):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", disk], stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small disk to fill can only be mounted by root, outside a container that forbids it")
+        try:
+            case = self.case(duration=1000.0, instruments__rate=20000)
+            result = self.run_program(case, "--bag", os.path.join(disk, "out.bag"), timeout=300)
+            self.assert_refused(result, "the disk is full")
+            self.assertEqual(os.listdir(disk), [])
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+
+if __name__ == "__main__":
+    program_runner.main()
