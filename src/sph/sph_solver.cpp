@@ -81,7 +81,8 @@ void SphSolver<Real>::build_kernels() {
   const auto sweep = [&](const char* file, const char* name, const std::string& options) {
     return compute::Program(device_, sources_, file, options).kernel(name);
   };
-  rates_kernel_ = sweep("rates.cl", "rates", fast);
+  continuity_kernel_ = sweep("continuity.cl", "continuity", fast);
+  momentum_kernel_ = sweep("momentum.cl", "momentum", fast);
   gradient_kernel_ = sweep("density_gradient.cl", "density_gradient", fast);
   loads_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=0");
   shear_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=1");
@@ -94,6 +95,7 @@ void SphSolver<Real>::build_kernels() {
   derive_ = time.kernel("derive_state");
   predict_ = time.kernel("predict");
   correct_ = time.kernel("correct");
+  compress_ = time.kernel("compress");
   move_packed_ = time.kernel("move_packed");
   const compute::Program reduce(device_, sources_, "reduce.cl", options_);
   watch_chunks_ = reduce.kernel("watch_chunks");
@@ -125,25 +127,25 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
 template <class Real>
 void SphSolver<Real>::sort() {
   grid_.sort(parameters_, state_, spare_, stride_, id_, spare_id_);
-  loads_current_ = false;
 }
 
 template <class Real>
-void SphSolver<Real>::load_walls(Buffer& state) {
-  if (&state == &state_ && loads_current_) return;
+void SphSolver<Real>::load_walls(const Buffer& state) {
   loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.fields, walls_.stride, loads_);
-  loads_current_ = &state == &state_;
 }
 
 template <class Real>
-void SphSolver<Real>::find_gradient(Buffer& state) {
-  gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, gradient_);
+void SphSolver<Real>::find_compression_rates() {
+  if (case_.numerics.density_diffusion == DensityDiffusion::antuono)
+    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, gradient_);
+  continuity_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.fields, walls_.stride,
+                            gradient_, rates_);
 }
 
 template <class Real>
-void SphSolver<Real>::find_rates(Buffer& state) {
-  rates_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.fields, walls_.stride, loads_,
-                       gradient_, rates_);
+void SphSolver<Real>::find_accelerations(const Buffer& state) {
+  momentum_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.fields, walls_.stride, loads_,
+                          rates_);
 }
 
 template <class Real>
@@ -153,27 +155,22 @@ void SphSolver<Real>::guard() {
 
 template <class Real>
 std::vector<Stage> SphSolver<Real>::symplectic() {
-  std::vector<Stage> stages;
-  const bool antuono = case_.numerics.density_diffusion == DensityDiffusion::antuono;
-  const auto evaluate_at = [&](const char* name, Buffer& state) {
-    stages.push_back({name, [this, &state] { load_walls(state); }});
-    if (antuono) stages.push_back({name, [this, &state] { find_gradient(state); }});
-    stages.push_back({name, [this, &state] { find_rates(state); }});
+  return {
+      {"drift to the middle", [this] { predict_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }},
+      {"wall pressures", [this] { load_walls(half_); }},
+      {"accelerations", [this] { find_accelerations(half_); }},
+      {"kick, and drift to the end", [this] { correct_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }},
+      {"guard", [this] { guard(); }},
+      {"neighbour grid", [this] { sort(); }},
+      {"compression rates", [this] { find_compression_rates(); }},
+      {"compressions to the end", [this] { compress_.launch(count_, parameters_, count_, state_, stride_, rates_, time_step_); }},
   };
-  evaluate_at("rates of the beginning", state_);
-  stages.push_back({"to the middle", [this] { predict_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }});
-  evaluate_at("rates of the middle", half_);
-  stages.push_back({"to the end", [this] { correct_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }});
-  stages.push_back({"guard", [this] { guard(); }});
-  return stages;
 }
 
 template <class Real>
 StepReport SphSolver<Real>::advance() {
   for (const Stage& stage : stages_) stage.run();
-  const StepReport report = watch();
-  if (report.offender < 0) sort();
-  return report;
+  return watch();
 }
 
 template <class Real>
@@ -222,10 +219,9 @@ StepReport SphSolver<Real>::start() {
   }
   state_.upload(state);
   derive_.launch(count_, parameters_, count_, state_, stride_);
-  loads_current_ = false;
   load_walls(state_);
-  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) find_gradient(state_);
-  find_rates(state_);
+  find_accelerations(state_);
+  find_compression_rates();
   guard_hits_.fill_zero();
   return watch();
 }
@@ -283,9 +279,8 @@ std::vector<WallWrench> SphSolver<Real>::wrenches() {
   std::vector<WallWrench> result(owners_.owners);
   for (WallWrench& wrench : result) wrench.fill(Eigen::Vector3d::Zero());
   if (walls_.count == 0) return result;
-  // the shear is only computed here; the pressures are the same as the step's
+  // pressures and shear at this instant; the step computes its own pressures in its middle
   shear_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state_, stride_, walls_.fields, walls_.stride, loads_);
-  loads_current_ = false;
   wrench_chunks_.launch(owners_.chunks, owners_.chunks, owners_.chunk_range, owners_.members, walls_.fields, walls_.stride, loads_,
                         owners_.chunk_owner, owners_.centres, owners_.partial);
   wrench_totals_.launch(owners_.owners, owners_.owners, owners_.owner_chunks, owners_.partial, owners_.total);
@@ -335,6 +330,7 @@ FluidState SphSolver<Real>::download() {
 template <class Real>
 std::vector<char> SphSolver<Real>::save() const {
   const std::vector<Real> state = state_.download();
+  const std::vector<Real> rates = rates_.download();
   const std::vector<Real> step = time_step_.download();
   const std::vector<std::uint32_t> id = id_.download();
   std::vector<char> bytes;
@@ -343,6 +339,7 @@ std::vector<char> SphSolver<Real>::save() const {
     bytes.insert(bytes.end(), begin, begin + size);
   };
   append(state.data(), state.size() * sizeof(Real));
+  append(&rates[static_cast<std::size_t>(field::rate_compression) * stride_], stride_ * sizeof(Real));  // the next drift begins with these
   append(step.data(), step.size() * sizeof(Real));
   append(id.data(), id.size() * sizeof(std::uint32_t));
   return bytes;
@@ -350,16 +347,23 @@ std::vector<char> SphSolver<Real>::save() const {
 
 template <class Real>
 void SphSolver<Real>::restore(const std::vector<char>& bytes) {
-  std::vector<Real> state(state_.size()), step(time_step_.size());
+  std::vector<Real> state(state_.size()), rates(rates_.size(), Real(0)), step(time_step_.size());
   std::vector<std::uint32_t> id(count_);
-  const std::size_t sizes[3] = {state.size() * sizeof(Real), step.size() * sizeof(Real), id.size() * sizeof(std::uint32_t)};
-  if (bytes.size() != sizes[0] + sizes[1] + sizes[2])
-    throw Error("the snapshot's fluid has " + std::to_string(bytes.size()) + " bytes, but this case's has " +
-                std::to_string(sizes[0] + sizes[1] + sizes[2]) + ".");
-  std::memcpy(state.data(), bytes.data(), sizes[0]);
-  std::memcpy(step.data(), bytes.data() + sizes[0], sizes[1]);
-  std::memcpy(id.data(), bytes.data() + sizes[0] + sizes[1], sizes[2]);
+  const std::size_t expected = (state.size() + stride_ + step.size()) * sizeof(Real) + id.size() * sizeof(std::uint32_t);
+  if (bytes.size() != expected)
+    throw Error("the snapshot's fluid has " + std::to_string(bytes.size()) + " bytes, but this case's has " + std::to_string(expected) +
+                ".");
+  const char* next = bytes.data();
+  const auto take = [&](void* to, std::size_t size) {
+    std::memcpy(to, next, size);
+    next += size;
+  };
+  take(state.data(), state.size() * sizeof(Real));
+  take(&rates[static_cast<std::size_t>(field::rate_compression) * stride_], stride_ * sizeof(Real));
+  take(step.data(), step.size() * sizeof(Real));
+  take(id.data(), id.size() * sizeof(std::uint32_t));
   state_.upload(state);
+  rates_.upload(rates);
   time_step_.upload(step);
   id_.upload(id);
   sort();  // already sorted, so this changes nothing but finds the cells

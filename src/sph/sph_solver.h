@@ -41,9 +41,9 @@ class SphSolver final : public Solver {
   void upload_particles(const Layout& layout);
   std::vector<Stage> symplectic();
   void sort();
-  void load_walls(Buffer& state);
-  void find_gradient(Buffer& state);
-  void find_rates(Buffer& state);
+  void load_walls(const Buffer& state);
+  void find_accelerations(const Buffer& state);
+  void find_compression_rates();
   void guard();
   StepReport watch();
 
@@ -64,12 +64,12 @@ class SphSolver final : public Solver {
   std::vector<WallElement> closed_elements_;  ///< walls and lid, for packing
   WallOwners<Real> owners_;
   Buffer loads_;
-  bool loads_current_ = false;  ///< loads_ belongs to state_ as it is
   Buffer time_step_, watches_, energy_parts_, energy_total_;
   compute::Buffer<int> guard_hits_, alarms_, alarm_;
-  compute::Kernel rates_kernel_, gradient_kernel_, loads_kernel_, shear_kernel_, packing_kernel_, points_kernel_, surface_kernel_,
-      guard_kernel_;
-  compute::Kernel derive_, predict_, correct_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_, packing_total_;
+  compute::Kernel continuity_kernel_, momentum_kernel_, gradient_kernel_, loads_kernel_, shear_kernel_, packing_kernel_, points_kernel_,
+      surface_kernel_, guard_kernel_;
+  compute::Kernel derive_, predict_, correct_, compress_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_,
+      packing_total_;
   compute::Kernel wrench_chunks_, wrench_totals_;
   std::vector<Stage> stages_;
 };

@@ -1,7 +1,6 @@
-// δ-SPH: continuity and momentum, eqs (32)–(37) of the particle shifting paper, with the boundary integrals of the geometric Shepard paper:
-//   ds/dt = −(1+s)/γ [Σ_j (u_j−u_i)·∇W V_j + Σ_s (u_s−u_i)·n W S] + diffusion
+// Momentum of δ-SPH, eqs (35, its sign corrected) and (37) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   du/dt = −1/(γ ρ_i) [Σ_j (p_i+p_j) ∇W V_j + Σ_s (p_i+p_s) n W S − viscosity] + g
-// s = ρ/ρ₀ − 1. Everything, γ included, in one pass over the neighbours.
+// One pass over the neighbours, γ included.
 #include "wall_element.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -12,13 +11,8 @@ typedef struct {
   __global const real* walls;
   int wall_stride;
   __global const real* wall_loads;
-#if DIFFUSION_ANTUONO
-  __global const real* gradient;
-  real gradient_x, gradient_y, gradient_z;
-#endif
-  real u, v, w, compression, pressure;
-  real divergence, diffusion;
-  real force_x, force_y, force_z;        // Σ (p_i+p_j) ∇W V
+  real u, v, w, pressure;
+  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
 } sweep_t;
@@ -35,38 +29,17 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #else
   const real approach = du * rx + dw * rz;
 #endif
-  a->divergence += approach * slope_volume;
-
-#if DIFFUSION_FOURTAKAS || DIFFUSION_ANTUONO
-  const real difference = state[FIELD_COMPRESSION * n + j] - a->compression;
-#endif
-#if DIFFUSION_FOURTAKAS
-  // of the dynamic density only: what hydrostatics explains, linearised, is not diffused
-  real explained = p->hydrostatic_x * rx + p->hydrostatic_z * rz;
-#if DIMENSIONS == 3
-  explained += p->hydrostatic_y * ry;
-#endif
-  a->diffusion += R(2.0) * slope_volume * (difference - explained);
-#elif DIFFUSION_ANTUONO
-  real explained = (a->gradient_x + a->gradient[j]) * rx + (a->gradient_z + a->gradient[2 * n + j]) * rz;
-#if DIMENSIONS == 3
-  explained += (a->gradient_y + a->gradient[n + j]) * ry;
-#endif
-  a->diffusion += slope_volume * (R(2.0) * difference - explained);
-#endif
-
-  const real eta = R(0.01) * p->smoothing_length * p->smoothing_length;
-  const real push = (a->pressure + state[FIELD_PRESSURE * n + j]) * slope_volume;
+  const real inverse = R(1.0) / (r2 + R(0.01) * p->smoothing_length * p->smoothing_length);
 #if VISCOSITY_MORRIS
-  // isotropic for the physical viscosity (MLS paper, eq 14), along the line of centres for the artificial one
-  const real shear = R(2.0) * p->viscosity * slope_volume * r2 / (r2 + eta);
+  // isotropic for the physical viscosity (MLS paper, eq 14); the artificial one acts along the line of centres all the same
+  const real shear = R(2.0) * p->viscosity * slope_volume * r2 * inverse;
   a->viscous_x += shear * du;
   a->viscous_z += shear * dw;
 #if DIMENSIONS == 3
   a->viscous_y += shear * dv;
 #endif
 #endif
-  const real central = push - p->pair_viscosity * approach * slope_volume / (r2 + eta);
+  const real central = slope_volume * (a->pressure + state[FIELD_PRESSURE * n + j] - p->pair_viscosity * approach * inverse);
   a->force_x += central * rx;
   a->force_z += central * rz;
 #if DIMENSIONS == 3
@@ -81,7 +54,6 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real weight = kernel_value(p, sqrt(r2)) * view.area;
   const real normal_speed = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
-  a->divergence -= normal_speed * weight;
   const real push = (a->pressure + a->wall_loads[LOAD_PRESSURE * a->wall_stride + s]) * weight;
   a->force_x += push * view.normal_x;
   a->force_y += push * view.normal_y;
@@ -97,9 +69,9 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
 
 #include "sweep.cl"
 
-__kernel void rates(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                    __global const int* wall_start, __global const real* walls, int wall_stride, __global const real* wall_loads,
-                    __global const real* gradient, __global real* rates) {
+__kernel void momentum(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+                       __global const int* wall_start, __global const real* walls, int wall_stride, __global const real* wall_loads,
+                       __global real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const real x = state[FIELD_X * stride + i];
@@ -112,16 +84,9 @@ __kernel void rates(__constant const parameters_t* p, int count, __global const 
   a.walls = walls;
   a.wall_stride = wall_stride;
   a.wall_loads = wall_loads;
-#if DIFFUSION_ANTUONO
-  a.gradient = gradient;
-  a.gradient_x = gradient[i];
-  a.gradient_y = DIMENSIONS == 3 ? gradient[stride + i] : R(0.0);
-  a.gradient_z = gradient[2 * stride + i];
-#endif
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
-  a.compression = state[FIELD_COMPRESSION * stride + i];
   a.pressure = state[FIELD_PRESSURE * stride + i];
   a.shepard = R(1.0);
   a.clearance = p->support;
@@ -130,11 +95,9 @@ __kernel void rates(__constant const parameters_t* p, int count, __global const 
   sweep_walls(&a, p, wall_start, walls, wall_stride, x, y, z);
 
   const real renormalise = R(1.0) / bounded_shepard(a.shepard);
-  const real per_mass = renormalise / (p->density * (R(1.0) + a.compression));
+  const real per_mass = renormalise / (p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]));
   rates[RATE_U * stride + i] = (a.viscous_x - a.force_x) * per_mass + p->gravity_x;
   rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (a.viscous_y - a.force_y) * per_mass + p->gravity_y : R(0.0);
   rates[RATE_W * stride + i] = (a.viscous_z - a.force_z) * per_mass + p->gravity_z;
-  rates[RATE_COMPRESSION * stride + i] = -(R(1.0) + a.compression) * a.divergence * renormalise + p->density_diffusion * a.diffusion;
-  rates[RATE_SHEPARD * stride + i] = a.shepard;
   rates[RATE_CLEARANCE * stride + i] = a.clearance;
 }
