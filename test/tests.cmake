@@ -31,7 +31,8 @@ if(TARGET wavetank_node)
 endif()
 
 # ROS's helpers start "env python3" and look up their own host's name: the interpreter that has ROS first on the path, and no network.
+# Caches of compiled kernels stay out of the home folder.
 get_filename_component(python_directory "${PYTHON_EXECUTABLE}" DIRECTORY)
 get_property(all_tests DIRECTORY PROPERTY TESTS)
 set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
-  ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home")
+  ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache")

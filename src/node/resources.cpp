@@ -2,6 +2,9 @@
 
 #include <ros/package.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -12,10 +15,11 @@ std::string resolve_resource(const std::string& uri) {
   const std::size_t slash = uri.find('/', scheme.size());
   const std::string package = uri.substr(scheme.size(), slash - scheme.size());
   if (package.empty() || slash == std::string::npos) throw Error("'" + uri + "' is no address: write package://PACKAGE/FILE");
-  const std::string folder = ros::package::getPath(package);
-  if (folder.empty())
+  std::vector<std::string> known;  // asked first, since getPath prints a complaint of its own about an unknown package
+  ros::package::getAll(known);
+  if (std::find(known.begin(), known.end(), package) == known.end())
     throw Error("'" + uri + "': no ROS package '" + package + "' is known here; source the setup.bash of the workspace that has it");
-  return folder + uri.substr(slash);
+  return ros::package::getPath(package) + uri.substr(slash);
 }
 
 }  // namespace wavetank

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "wavetank/common/log.h"
 #include "wavetank/node/markers.h"
@@ -205,9 +206,13 @@ bool TankNode::everything_is_heard() {
 
 void TankNode::ended(const LoopStatus& status) {
   if (!bag_ || !bag_->is_open()) return;
+  if (!messages_) {  // it never started
+    bag_.reset();
+    return;
+  }
   bag_->write("status", clock_.at(status.solver.time), make_status(status));
   bag_->finish();
-  log(LogLevel::info, "wrote '" + bag_->path() + "'");
+  log(LogLevel::info, "wrote '" + std::filesystem::absolute(bag_->path()).string() + "'");
 }
 
 }  // namespace wavetank

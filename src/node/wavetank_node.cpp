@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
   }
   wavetank::set_log_sink(log_to_ros);
   if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
+  ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
   try {
-    ros::NodeHandle handle, private_handle("~");
     wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
     ros::AsyncSpinner spinner(2);
     spinner.start();

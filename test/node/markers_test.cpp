@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 
 namespace {
 
-const Marker& find(const visualization_msgs::MarkerArray& drawing, const std::string& group) {
+Marker find(const visualization_msgs::MarkerArray& drawing, const std::string& group) {
   const auto found = std::find_if(drawing.markers.begin(), drawing.markers.end(), [&](const Marker& m) { return m.ns == group; });
   if (found == drawing.markers.end()) throw std::runtime_error("no marker of " + group);
   return *found;
@@ -26,7 +26,7 @@ const Marker& find(const visualization_msgs::MarkerArray& drawing, const std::st
 TEST(Markers, DrawTankBodiesProbesAndGauges) {
   const auto drawing = markers(example_case(), example_layout());
   EXPECT_EQ(drawing.markers.front().action, Marker::DELETEALL);
-  const Marker& tank = find(drawing, "tank");
+  const Marker tank = find(drawing, "tank");
   EXPECT_EQ(tank.type, Marker::TRIANGLE_LIST);
   EXPECT_EQ(tank.points.size(), 30U) << "ten triangles of an open box";
   EXPECT_LT(tank.color.a, 0.5F);
@@ -34,7 +34,7 @@ TEST(Markers, DrawTankBodiesProbesAndGauges) {
   EXPECT_EQ(find(drawing, "bodies").color.a, 1.0F);
   EXPECT_EQ(find(drawing, "probe names").text, "P1");
   EXPECT_EQ(find(drawing, "probes").pose.position.z, 3.1);
-  const Marker& gauge = find(drawing, "gauges");
+  const Marker gauge = find(drawing, "gauges");
   ASSERT_EQ(gauge.points.size(), 2U);
   EXPECT_EQ(gauge.points[0].z, 3.0);
   EXPECT_EQ(gauge.points[1].z, 4.0);
@@ -54,7 +54,7 @@ TEST(Markers, KeepAPackageMeshAsAResource) {
   source.translation = {1, 2, 3};
   source.rotation = {0, 0, M_PI / 2};
   example.bodies[0].shape = source;
-  const Marker& body = find(markers(example, example_layout()), "bodies");
+  const Marker body = find(markers(example, example_layout()), "bodies");
   EXPECT_EQ(body.type, Marker::MESH_RESOURCE);
   EXPECT_EQ(body.mesh_resource, source.uri);
   EXPECT_EQ(body.scale.y, 0.001);

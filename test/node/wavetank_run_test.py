@@ -137,8 +137,8 @@ class Output(ProgramTest):
 
 class Endings(ProgramTest):
     def test_ctrl_c_leaves_a_readable_bag(self):
-        process = self.start_program(self.case(duration=1000.0), "--bag", "out.bag", "--save", "end.snapshot")
-        read_line_with(process, "running")
+        process = self.start_program(self.case(duration=5.0), "--bag", "out.bag", "--save", "end.snapshot")
+        read_line_with(process, "running  10 %")
         interrupt(process)
         self.assertEqual(process.wait(timeout=30), 130)
         self.assertEqual(self.files(), ["case.yaml", "end.snapshot", "out.bag"])
@@ -248,7 +248,7 @@ class Refusals(ProgramTest):
             ("both of them", dict(fluid__particles=1000), "particles"),
             ("a spacing of zero", dict(fluid__spacing=0.0), "spacing"),
             ("an unknown scheme", dict(numerics__scheme="magic"), "magic"),
-            ("gravity of two numbers", dict(gravity=[0, -9.81]), "gravity"),
+            ("gravity of four numbers", dict(gravity=[0, 0, 0, -9.81]), "gravity"),
             ("no fluid", dict(fluid__fill=[]), "fill"),
             ("a fill turned inside out", dict(fluid__fill=[{"box": {"min": [0.4, 0, 0.2], "max": [0, 0, 0]}}]), "fill"),
             ("fluid outside the tank", dict(fluid__fill=[{"box": {"min": [0.3, 0, 0], "max": [0.8, 0, 0.2]}}]), "tank"),

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""Nodes that end, and the bags they leave: recorded ones, failures, interrupts, refusals."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rosbag
+import rosgraph
+import roslib.packages
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from wavetank.msg import ProbeArray, SolverStatus
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+CASE = os.path.join(HERE, "still_tank.yaml")
+
+
+def node_program():
+    return roslib.packages.find_node("wavetank", "wavetank_node")[0]
+
+
+class NodeEndings(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("node_endings_test")
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="wavetank_node_")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def start(self, name, **parameters):
+        rospy.set_param("/" + name, {key: value for key, value in parameters.items()})
+        process = subprocess.Popen([node_program(), "__name:=" + name], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.addCleanup(self.end, process)
+        return process
+
+    def end(self, process):
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+    def wait_for_end(self, process, seconds=60):
+        try:
+            output, _ = process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            self.fail("the node did not end in %g s" % seconds)
+        return process.returncode, output.decode()
+
+    def stamps(self, bag, topic):
+        with rosbag.Bag(bag) as opened:
+            return [message.header.stamp.to_nsec() for _, message, _ in opened.read_messages(topics=[topic])]
+
+    def test_a_recorded_bag_has_every_sample_exactly_once(self):
+        topics = ["/recorded/" + topic for topic in ("probes", "probes/P1", "gauges", "bodies/tank/wrench", "bodies/step/wrench", "status")]
+        recorder = subprocess.Popen(
+            ["rosbag", "record", "-O", self.path("recorded.bag")] + topics,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,  # a group of its own: the recorder proper is a child of this process
+        )
+        self.addCleanup(self.end, recorder)
+        node = self.start(
+            "recorded", case_file=CASE, duration=0.5, wait_for_subscribers=60.0, exit_at_end=True, bag=self.path("own.bag"), bag_clouds=True
+        )
+        self.assertEqual(self.wait_for_end(node)[0], 0)
+        os.killpg(recorder.pid, signal.SIGINT)
+        recorder.wait(timeout=30)
+        for bag in ("recorded.bag", "own.bag"):
+            for topic in topics[:-1]:
+                self.assertEqual(self.stamps(self.path(bag), topic), [i * 1000000 for i in range(501)], bag + " " + topic)
+        self.assertGreater(len(self.stamps(self.path("own.bag"), "/recorded/free_surface")), 20)
+
+    def test_a_violation_is_an_error_diagnostic_a_snapshot_and_an_exit_code(self):
+        errors = []
+
+        def hear(message):
+            errors.extend(s.message for s in message.status if s.name == "falling: solver" and s.level == 2)
+
+        subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, hear)
+        fluid = {"sound_speed": 0.6, "fill": [{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}]}
+        node = self.start(
+            "falling", case_file=CASE, duration=2.0, fluid=fluid, bodies=[], snapshot_directory=self.folder, bag=self.path("end.bag")
+        )
+        code, output = self.wait_for_end(node)
+        subscriber.unregister()
+        self.assertEqual(code, 3, output)
+        self.assertTrue(any("particle" in error for error in errors), errors)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["end.bag", "falling_failure.snapshot"])
+        with rosbag.Bag(self.path("end.bag")) as bag:
+            last = [message for _, message, _ in bag.read_messages(topics=["/falling/status"])][-1]
+        self.assertEqual(last.phase, SolverStatus.FAILED)
+
+    def test_ctrl_c_while_running_ends_cleanly_and_a_namesake_can_follow(self):
+        for _ in range(2):
+            node = self.start("interrupted", case_file=CASE, duration=1000.0, bag=self.path("a.bag"))
+            rospy.wait_for_message("/interrupted/probes", ProbeArray, 60.0)
+            begin = time.time()
+            node.send_signal(signal.SIGINT)
+            code, output = self.wait_for_end(node)
+            self.assertEqual(code, 0, output)
+            self.assertLess(time.time() - begin, 5.0)
+            found = self.stamps(self.path("a.bag"), "/interrupted/probes")
+            self.assertEqual(found, [i * 1000000 for i in range(len(found))])
+            self.assertNotIn("/interrupted", str(rosgraph.Master("/test").getSystemState()))
+
+    def test_ctrl_c_while_packing_ends_cleanly_and_leaves_no_bag(self):
+        fluid = {"spacing": 0.001}
+        node = self.start("packing", case_file=CASE, fluid=fluid, bag=self.path("a.bag"))
+        rospy.wait_for_message("/packing/status", SolverStatus, 60.0)
+        begin = time.time()
+        node.send_signal(signal.SIGINT)
+        code, output = self.wait_for_end(node)
+        self.assertEqual(code, 0, output)
+        self.assertLess(time.time() - begin, 5.0)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_wrong_parameters_are_refused_with_their_name(self):
+        for number, (parameters, word) in enumerate(
+            [
+                ({}, "case_file"),
+                ({"case_file": "/no/such/case.yaml"}, "/no/such/case.yaml"),
+                ({"case_file": CASE, "fluid": {"densty": 1.0}}, "densty"),
+                ({"case_file": CASE, "exit_at_end": "perhaps"}, "exit_at_end"),
+                ({"case_file": CASE, "bag": "/no/such/a.bag"}, "/no/such/a.bag"),
+                ({"case_file": CASE, "duration": "long"}, "duration"),
+                ({"title": "a", "duration": 1.0}, "fluid"),
+            ]
+        ):
+            name = "wrong_%d" % number
+            code, output = self.wait_for_end(self.start(name, **parameters))
+            self.assertEqual(code, 2, output)
+            self.assertIn(word, output)
+            self.assertNotIn("terminate called", output)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("wavetank", "node_endings", NodeEndings, sys.argv)
