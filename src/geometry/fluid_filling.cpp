@@ -10,7 +10,7 @@
 namespace wavetank {
 namespace {
 
-constexpr double most_cells = 1e9;
+constexpr double most_cells = 1e8;
 
 using Cell = std::array<int, 3>;
 
@@ -43,7 +43,7 @@ void visit_neighbours(const FilledRegion& region, const Cell& cell, Visit visit)
 
 void allocate(FilledRegion& region, const std::string& key) {
   const double cells = static_cast<double>(region.count[0]) * region.count[1] * region.count[2];
-  if (cells > most_cells) throw Error(key + ": more than 1e9 particles; choose a larger fluid/spacing");
+  if (cells > most_cells) throw Error(key + ": more than 1e8 cells; choose a larger fluid/spacing");
   region.filled.assign(static_cast<std::size_t>(cells), 0);
   region.position.resize(region.filled.size());
   for (std::size_t c = 0; c < region.filled.size(); ++c) region.position[c] = centre_of(region, cell_at(region, c));

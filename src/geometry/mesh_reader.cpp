@@ -1,5 +1,4 @@
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <unordered_map>
 
+#include "mesh_file_access.h"
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wavetank/common/error.h"
@@ -81,15 +81,18 @@ void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& p
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines bound nothing
-      Vector3i triangle;
-      for (int k = 0; k < 3; ++k) {
+      std::vector<Vector3d> corners;
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] >= part.mNumVertices) {
           throw Error("mesh file '" + path + "' is corrupt: face " + std::to_string(f) + " names a vertex that does not exist");
         }
-        triangle[k] = first + static_cast<int>(face.mIndices[k]);
+        corners.push_back(mesh.vertices[first + static_cast<int>(face.mIndices[k])]);
       }
-      mesh.triangles.push_back(triangle);
+      if (corners.size() < 3) continue;  // points and lines bound nothing
+      for (const Vector3i& t : triangulate(corners)) {
+        mesh.triangles.emplace_back(first + static_cast<int>(face.mIndices[t[0]]), first + static_cast<int>(face.mIndices[t[1]]),
+                                    first + static_cast<int>(face.mIndices[t[2]]));
+      }
     }
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child) add_node(scene, *node.mChildren[child], transform, path, mesh);
@@ -140,9 +143,10 @@ TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directo
   check_file(path);
 
   Assimp::Importer importer;
+  importer.SetIOHandler(new MeshFileAccess);  // the importer owns it
   // Collada: the file's axes stay as they are written, as in rviz; its unit is applied, so that coordinates are metres.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path, 0);  // no processing: some of its steps abort the program on corrupt faces
   if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
 
   TriangleMesh mesh;

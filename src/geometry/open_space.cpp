@@ -10,7 +10,7 @@ namespace wavetank {
 namespace {
 
 constexpr double fine_voxels = 1.0e6;  // up to so many at half the spacing, which finds narrower passages
-constexpr double most_voxels = 4.0e8;
+constexpr double most_voxels = 1.0e8;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ OpenSpace::OpenSpace(const Box& domain, int dimensions, double spacing, const Tr
   const double count = (size.x() / spacing) * across * (size.z() / spacing);
   if (count > most_voxels) {
     throw Error("the tank of " + describe(size) + " m is too large for a particle spacing of " + describe(spacing) +
-                " m: more than 4e8 cells; check the scale of its mesh");
+                " m: more than 1e8 cells; check the scale of its mesh");
   }
   const double side = count * (dimensions == 2 ? 4 : 8) <= fine_voxels ? 0.5 * spacing : spacing;
   for (int axis = 0; axis < 3; ++axis) {

@@ -5,6 +5,14 @@
 #include <cstdio>
 
 namespace wavetank {
+namespace {
+
+/// Whether `point` lies in the triangle, seen along `normal`; its edges count as outside.
+bool covers(const Vector3d& normal, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& point) {
+  return normal.dot((b - a).cross(point - a)) > 0 && normal.dot((c - b).cross(point - b)) > 0 && normal.dot((a - c).cross(point - c)) > 0;
+}
+
+}  // namespace
 
 Vector3d vector_area(const Polygon& polygon) {
   Vector3d sum = Vector3d::Zero();
@@ -45,6 +53,29 @@ Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset
     if (height[k] * height[next] < 0) part.push_back(polygon[k] + height[k] / (height[k] - height[next]) * (polygon[next] - polygon[k]));
   }
   return part;
+}
+
+std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners) {
+  const Vector3d normal = vector_area(corners);  // of a polygon that is not convex too: the parts outside cancel
+  std::vector<int> left(corners.size());
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = static_cast<int>(k);
+  std::vector<Eigen::Vector3i> triangles;
+  const auto is_ear = [&](std::size_t k) {
+    const std::size_t count = left.size();
+    const Vector3d &a = corners[left[(k + count - 1) % count]], &b = corners[left[k]], &c = corners[left[(k + 1) % count]];
+    if (normal.dot((b - a).cross(c - b)) <= 0) return false;
+    return std::none_of(left.begin(), left.end(), [&](int other) { return covers(normal, a, b, c, corners[other]); });
+  };
+  while (left.size() > 3) {
+    std::size_t ear = 0;
+    while (ear < left.size() && !is_ear(ear)) ++ear;
+    if (ear == left.size()) ear = 1;  // no ear in a degenerate polygon: what comes of it has no area
+    const std::size_t count = left.size();
+    triangles.emplace_back(left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  if (left.size() == 3) triangles.emplace_back(left[0], left[1], left[2]);
+  return triangles;
 }
 
 Vector3d nearest_on_triangle(const Vector3d& point, const Vector3d& a, const Vector3d& b, const Vector3d& c) {

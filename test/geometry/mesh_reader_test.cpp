@@ -82,6 +82,13 @@ TEST_F(MeshReader, AppliesColladaUnitAndNodesButKeepsItsAxes) {
   }
 }
 
+TEST_F(MeshReader, CutsPolygonsIntoTriangles) {
+  const std::string arrow = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n";  // a square with a deep notch
+  const TriangleMesh mesh = read(source(write("arrow.obj", arrow)));
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_NEAR(surface_area(mesh), 4 - 1.5, 1e-12);
+}
+
 TEST_F(MeshReader, DropsDuplicatesAndZeroAreas) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 2 3 1\nf 3 2 1\nf 1 2 4\nf 1 1 2\n";
   const TriangleMesh mesh = read(source(write("t.obj", obj)));
@@ -119,6 +126,10 @@ TEST_F(MeshReader, RefusesATruncatedBinaryStl) {
   std::stringstream bytes;
   bytes << whole.rdbuf();
   EXPECT_ERROR(read(source(write("cut.stl", bytes.str().substr(0, 300)))), "cannot be read");
+}
+
+TEST_F(MeshReader, RefusesAPlyThatEndsInItsHeader) {
+  EXPECT_ERROR(read(source(write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"))), "cut.ply");
 }
 
 TEST_F(MeshReader, RefusesAStlWithInfiniteVertices) {
