@@ -77,6 +77,48 @@ class References(unittest.TestCase):
             plot_probes.find_reference(series([], [], "H1", (9, 0.5, 0)), self.columns, {"H1": "nothing"})
 
 
+class KeyFigures(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.path = os.path.join(self.folder, "figures.csv")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def write(self, lines):
+        with open(self.path, "w") as file:
+            file.write("# a remark\ninstrument,figure,time,until,value\n" + lines)
+        return self.path
+
+    def test_are_found_in_a_series(self):
+        t = numpy.arange(0, 1.0005, 0.001)
+        ramp = series(t, 1000.0 * t)
+        figures = plot_probes.read_figures(self.write("P1,arrival,0.4,,500\nP1,peak,0.9,,800\nP1,impulse,0.5,1,300\nP1,level,0.25,,7\n"))["P1"]
+        self.assertEqual([figure.measured() for figure in figures], [0.4, 800, 300, 7])
+        numpy.testing.assert_allclose([figure.simulated(ramp) for figure in figures], [0.501, 1000, 375, 250], rtol=1e-6)
+
+    def test_beyond_the_record_are_not_numbers(self):
+        short = series([0.0, 0.1], [0.0, 0.0])
+        figures = plot_probes.read_figures(self.write("P1,arrival,0.4,,500\nP1,peak,0.9,,800\nP1,impulse,0.5,1,300\nP1,level,0.25,,7\n"))["P1"]
+        self.assertTrue(all(math.isnan(figure.simulated(short)) for figure in figures))
+
+    def test_of_the_benchmark_name_instruments_of_its_case(self):
+        config = os.path.join(os.path.dirname(os.path.dirname(HERE)), "config")
+        figures = plot_probes.read_figures(os.path.join(config, "spheric2_key_figures.csv"))
+        with open(os.path.join(config, "dam_break_3d.yaml")) as file:
+            case = file.read()
+        self.assertEqual(len(figures), 12)
+        for instrument in figures:
+            self.assertIn("{name: %s," % instrument, case)
+
+    def test_name_the_faulty_line(self):
+        for line in ("P1,arrival,soon,,500", "P1,guess,1,,500", "P1,impulse,1,,500", "P1,peak,1"):
+            with self.assertRaisesRegex(plot_probes.Failure, "line 4 "):
+                plot_probes.read_figures(self.write("P1,peak,1,,5\n" + line + "\n"))
+        with self.assertRaises(plot_probes.Failure):
+            plot_probes.read_figures(os.path.join(self.folder, "missing.csv"))
+
+
 class Script(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="plot_probes_")
