@@ -38,7 +38,7 @@ typedef struct {
 #define RATE_W 2
 #define RATE_COMPRESSION 3
 #define RATE_SHEPARD 4        // γ
-#define RATE_CLEARANCE 5      // distance to the nearest wall element that the particle stands over
+#define RATE_CLEARANCE 5      // distance to the nearest wall element, at the least
 #define RATE_COUNT 6
 
 // wall elements

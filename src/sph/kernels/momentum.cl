@@ -50,7 +50,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
   a->shepard += shepard_term(p, &view, r2);
-  const real clearance = view.over && view.distance > -BEHIND_TOLERANCE * p->spacing ? view.distance : p->support;
+  const real clearance = wall_clearance(p, &view);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real weight = kernel_value(p, sqrt(r2)) * view.area;
   const real normal_speed = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;

@@ -28,7 +28,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
   a->error_x += weight * view.normal_x;
   a->error_y += weight * view.normal_y;
   a->error_z += weight * view.normal_z;
-  const real clearance = view.over && view.distance > -BEHIND_TOLERANCE * p->spacing ? view.distance : p->support;
+  const real clearance = wall_clearance(p, &view);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
 }
 

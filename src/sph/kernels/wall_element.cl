@@ -44,6 +44,12 @@ INLINE wall_view_t view_wall(__constant const parameters_t* p, __global const re
   return v;
 }
 
+// How near the point is to the element, at the least: what the guard asks. Beside an element it counts too, for a point that comes round an edge.
+INLINE real wall_clearance(__constant const parameters_t* p, const wall_view_t* v) {
+  if (v->over) return v->distance > -BEHIND_TOLERANCE * p->spacing ? v->distance : p->support;
+  return fmax(fabs(v->distance), fmax(fabs(v->along), fabs(v->across)) - v->half_side);
+}
+
 // atan2(y, x) for x ≥ 0. In float32 by a polynomial of our own, fitted at Chebyshev nodes, error below 1.1e-7: the library's function is a call, which
 // keeps the loop over the wall elements from being vectorised.
 INLINE real arctangent(real y, real x) {
