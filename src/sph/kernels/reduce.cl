@@ -40,7 +40,7 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
     const real speed2 = u * u + v * v + w * w;
     const real acceleration2 = a * a + b * b + c * c;
     int offends = 0;
-    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2) || not_finite(acceleration2) || not_finite(s) || not_finite(shepard)) {
+    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2) || not_finite(s) || not_finite(shepard)) {
       ++broken;
       offends = 1;
     } else {
@@ -53,8 +53,9 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
         offends = 1;
       }
       speed = fmax(speed, speed2);
-      acceleration = fmax(acceleration, acceleration2);
     }
+    // from before the sorting, so of another particle: one that is not finite shows in its own particle's velocity
+    if (!not_finite(acceleration2)) acceleration = fmax(acceleration, acceleration2);
     if (offends && first == NOBODY) first = i;
     guarded += guard_hits[i];
     bounded += shepard > R(1.005) || shepard < R(0.05) ? 1 : 0;
