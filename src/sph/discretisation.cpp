@@ -36,19 +36,23 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   d.smoothing_length = 0.5 * d.support;
   d.sound_speed = *settled_case.fluid.sound_speed;
 
-  // sideways and below, half a spacing of tolerance; above an open tank, water may fly as high again as the tank is
+  // sideways and below, half a spacing of tolerance; above an open tank, three times the expected speed may throw water nine times its fall
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * d.spacing);
   d.lower = layout.domain.min - margin;
   d.upper = layout.domain.max + margin;
-  d.upper.z() += std::max(layout.domain.max.z() - layout.domain.min.z(), 2.0 * d.support);
+  const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
+  const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper.z() - d.lower.z()));
   d.origin = d.lower;
   if (d.dimensions == 2) d.origin.y() = 0.0;
 
   double total = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil((d.upper[axis] - d.lower[axis]) / d.support)) + 2;
+    // above the tank, one more tank of cells: what flies higher shares the topmost
+    const double extent = (d.upper[axis] - d.lower[axis]) * (axis == 2 ? 2.0 : 1.0);
+    d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil(extent / d.support)) + 2;
     total *= d.cells[axis];
   }
+  d.upper.z() += throw_height;
   if (total > std::numeric_limits<int>::max() / 4.0)
     throw Error("the tank needs " + std::to_string(total) +
                 " grid cells of the support's size, more than can be indexed: raise fluid/spacing.");

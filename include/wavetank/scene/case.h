@@ -99,7 +99,7 @@ struct NumericsCase {
   NegativePressure negative_pressure = NegativePressure::allowed;
   Shifting shifting = Shifting::none;
   Integrator integrator = Integrator::symplectic;
-  double courant = 0.4;  ///< Δt as a fraction of h/(c₀ + |u|)
+  double courant = 0.5;  ///< Δt as a fraction of h/(c₀ + |u|)
   Precision precision = Precision::single;
   PackingCase packing;
 };
