@@ -1,0 +1,148 @@
+// Particles shot at walls, into corners and onto an obstacle's edges, without gravity: none may end up behind a wall.
+#include <random>
+
+#include "sph_fixture.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double sound_speed = 10;
+constexpr double shot_speed = 0.2 * sound_speed;
+constexpr double spacing = 0.05;
+
+struct Shot {
+  Vector3d from;
+  Vector3d at;
+};
+
+Case weightless(const Vector3d& size, const Box& obstacle) {
+  Case scene = box_case(size, size.z(), spacing);
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(4 * spacing, size.y() == 0 ? 0 : 4 * spacing, 4 * spacing)}};
+  scene.gravity = Vector3d::Zero();
+  scene.fluid.sound_speed = sound_speed;
+  std::get<BoxTank>(scene.tank.shape).closed = true;
+  scene.bodies.push_back({"obstacle", obstacle, Motion::fixed});
+  return scene;
+}
+
+/// How far a point is outside the tank or inside the obstacle; at most 0 in the fluid.
+double behind(const Vector3d& point, const Vector3d& size, const Box& obstacle) {
+  const bool flat = size.y() == 0;
+  double depth = -1, in_obstacle = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (flat && axis == 1) continue;
+    depth = std::max({depth, -point[axis], point[axis] - size[axis]});
+    in_obstacle = std::min({in_obstacle, point[axis] - obstacle.min[axis], obstacle.max[axis] - point[axis]});
+  }
+  return std::max(depth, in_obstacle);
+}
+
+/// Runs all shots at once, one particle each; none may ever be behind a wall after a step. Returns how often the guard had to act.
+int shoot(const Case& scene, const std::vector<Shot>& shots, int steps) {
+  Layout layout = lay_out(scene);
+  layout.particles.clear();
+  for (const Shot& shot : shots) layout.particles.push_back(shot.from);
+  layout.volumes.assign(shots.size(), std::pow(spacing, scene.dimensions));
+  layout.levels.assign(shots.size(), 0);
+  Tank tank(scene, layout);
+  tank.solver->start();
+  StateBytes<float> state(*tank.solver);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Shot& shot = shots[state.id(i)];
+    const Vector3d velocity = shot_speed * (shot.at - shot.from).normalized();
+    for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[axis]);
+  }
+  tank.solver->restore(state.bytes);
+
+  const Vector3d size = std::get<BoxTank>(scene.tank.shape).size;
+  const Box obstacle = std::get<Box>(scene.bodies[0].shape);
+  double greatest = -1, fastest = 0;
+  int hits = 0;
+  for (int step = 0; step < steps; ++step) {
+    const StepReport report = tank.solver->advance();
+    EXPECT_EQ(report.offender, -1) << "step " << step << ", particle " << report.offender_id << " at "
+                                   << report.offender_position.transpose();
+    if (report.offender >= 0) break;
+    hits += report.guard_hits;
+    fastest = std::max(fastest, report.greatest_speed);
+    const FluidState fluid = tank.solver->download();
+    for (std::size_t i = 0; i < fluid.id.size(); ++i) {
+      const double depth = behind(fluid.position[i], size, obstacle);
+      if (depth <= greatest) continue;
+      greatest = depth;
+      EXPECT_LT(depth, 1e-3 * spacing) << "step " << step << ": particle " << fluid.id[i] << ", shot at "
+                                       << shots[fluid.id[i]].at.transpose() << ", is at " << fluid.position[i].transpose();
+    }
+  }
+  std::printf("%zu shots at %.1f m/s in %d-D: %d guard hits, greatest speed %.2f m/s, deepest behind a wall %.1e spacings\n", shots.size(),
+              shot_speed, scene.dimensions, hits, fastest, std::max(greatest, 0.0) / spacing);
+  return hits;
+}
+
+TEST(Guard, LoneParticlesStayInFrontOfWallsIn2D) {
+  const Vector3d size(2, 0, 2);
+  const Box obstacle{Vector3d(0.8, 0, 0.8), Vector3d(1.2, 0, 1.2)};
+  std::vector<Shot> shots;
+  for (const double z : {0.3, 0.7, 1.3, 1.7}) shots.push_back({Vector3d(0.3, 0, z), Vector3d(0, 0, z - 0.1)});  // at a wall
+  for (const double x : {0.0, 2.0})
+    for (const double z : {0.0, 2.0}) shots.push_back({Vector3d(1 + 0.6 * (x - 1), 0, 1 + 0.6 * (z - 1)), Vector3d(x, 0, z)});  // corners
+  for (const double x : {0.8, 1.2})
+    for (const double z : {0.8, 1.2})
+      for (const double turn : {0.0, 0.3, -0.5}) {  // the obstacle's edges, from several sides
+        const Vector3d edge(x, 0, z), out((x - 1), 0, (z - 1));
+        const Vector3d from(out.x() * std::cos(turn) - out.z() * std::sin(turn), 0, out.x() * std::sin(turn) + out.z() * std::cos(turn));
+        shots.push_back({edge + (1.0 + turn) * from, edge});
+      }
+  shoot(weightless(size, obstacle), shots, 400);  // the walls' pressure turns these round, mostly
+}
+
+TEST(Guard, LoneParticlesStayInFrontOfWallsIn3D) {
+  const Vector3d size(1.2, 1.2, 1.2);
+  const Box obstacle{Vector3d(0.45, 0.45, 0.45), Vector3d(0.75, 0.75, 0.75)};
+  const Vector3d middle = 0.5 * size;
+  std::vector<Shot> shots;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d towards((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
+    shots.push_back({middle + 0.45 * towards, middle + 0.6 * towards});                             // the tank's corners
+    shots.push_back({middle + 0.36 * towards + Vector3d(0.02, 0, 0.01), middle + 0.15 * towards});  // the obstacle's
+  }
+  for (const double s : {-1.0, 1.0})
+    for (const double t : {-1.0, 1.0}) {
+      shots.push_back({middle + Vector3d(0.33 * s, 0.03, 0.33 * t), middle + Vector3d(0.15 * s, 0, 0.15 * t)});  // its edges
+      shots.push_back({middle + Vector3d(0.04, 0.31 * s, 0.35 * t), middle + Vector3d(0, 0.15 * s, 0.15 * t)});
+      shots.push_back({middle + Vector3d(0.5 * s, 0.1 * t, 0.5 * t), middle + Vector3d(0.6 * s, 0, 0.6 * t)});  // the tank's edges
+    }
+  shoot(weightless(size, obstacle), shots, 250);
+}
+
+TEST(Guard, ABlockOfFluidStaysInFrontOfWalls) {
+  const Vector3d size(1.2, 0, 1.2);
+  const Box obstacle{Vector3d(0.6, 0, 0.0), Vector3d(0.8, 0, 0.4)};
+  std::vector<Shot> shots;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) {
+      const Vector3d at_corner(0.075 + spacing * i, 0, 0.075 + spacing * k), at_edge(0.45 - spacing * i, 0, 0.55 + spacing * k);
+      shots.push_back({at_corner, at_corner - Vector3d(1, 0, 1)});
+      shots.push_back({at_edge, at_edge + Vector3d(1, 0, -1)});
+    }
+  EXPECT_GT(shoot(weightless(size, obstacle), shots, 300), 0) << "the guard had nothing to do: the shots missed";
+}
+
+TEST(Guard, RandomShotsStayInFrontOfWalls) {
+  const unsigned seed = 7;
+  std::mt19937 random(seed);
+  const Vector3d size(2, 0, 2);
+  const Box obstacle{Vector3d(0.8, 0, 0.8), Vector3d(1.2, 0, 1.2)};
+  std::uniform_real_distribution<double> across(0.05, 1.95);
+  std::vector<Shot> shots;
+  while (shots.size() < 100) {
+    const Vector3d from(across(random), 0, across(random));
+    if (behind(from, size, obstacle) > -spacing) continue;
+    shots.push_back({from, Vector3d(across(random), 0, across(random))});
+  }
+  std::printf("seed %u: ", seed);
+  EXPECT_GT(shoot(weightless(size, obstacle), shots, 500), 0) << "the guard had nothing to do: the shots missed";
+}
+
+}  // namespace
+}  // namespace wavetank

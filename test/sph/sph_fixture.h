@@ -1,0 +1,116 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../../src/sph/kernel_parameters.h"
+#include "wavetank/common/error.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+inline const compute::Device& test_device() {
+  static const compute::Device device(compute::choose_device("auto"));
+  return device;
+}
+
+inline bool has_precision(Precision precision) { return precision == Precision::single || test_device().info().has_double; }
+
+/// A case in a box tank from the origin, filled over its whole floor; 2-D where size y is 0. Quiet defaults of the demo cases.
+inline Case box_case(const Vector3d& size, double depth, double spacing) {
+  Case result;
+  result.title = "a box tank";
+  result.dimensions = size.y() == 0 ? 2 : 3;
+  result.duration = 1;
+  result.fluid.spacing = spacing;
+  result.fluid.fill = {Box{Vector3d::Zero(), Vector3d(size.x(), size.y(), depth)}};
+  result.tank.shape = BoxTank{size, Vector3d::Zero(), false};
+  return result;
+}
+
+inline Layout lay_out(const Case& checked) { return lay_out(checked, ResourceResolver()); }
+
+/// A solver with all that it was made from.
+struct Tank {
+  explicit Tank(const Case& checked) : Tank(checked, lay_out(checked)) {}
+  Tank(const Case& checked, const Layout& made) : layout(made), scene(settled(checked, layout)), discretisation(discretise(scene, layout)) {
+    const std::vector<Vector3d> centres(1 + scene.bodies.size(), Vector3d::Zero());
+    solver = make_solver(test_device(), scene, layout, discretisation, centres);
+  }
+  void pack_and_start(int iterations) {
+    solver->pack(iterations, {});
+    solver->start();
+  }
+
+  Layout layout;
+  Case scene;
+  Discretisation discretisation;
+  std::unique_ptr<Solver> solver;
+};
+
+/// A layout without walls: particles of one volume in a box.
+inline Layout loose_particles(const Box& domain, double spacing, const std::vector<Vector3d>& particles, int dimensions) {
+  Layout layout;
+  layout.spacing = spacing;
+  layout.domain = domain;
+  layout.particles = particles;
+  layout.volumes.assign(particles.size(), std::pow(spacing, dimensions));
+  layout.levels.assign(particles.size(), domain.max.z());
+  return layout;
+}
+
+/// The bytes of a solver's state, by field and particle.
+template <class Real>
+class StateBytes {
+ public:
+  explicit StateBytes(const Solver& solver) : StateBytes(solver.save(), solver.particle_count()) {}
+  StateBytes(std::vector<char> saved, std::size_t particles)
+      : bytes(std::move(saved)), count(particles), stride((particles + 15) / 16 * 16) {}
+
+  Real get(int field, std::size_t index) const {
+    Real value;
+    std::memcpy(&value, bytes.data() + (field * stride + index) * sizeof(Real), sizeof value);
+    return value;
+  }
+  void set(int field, std::size_t index, double value) {
+    const Real stored = static_cast<Real>(value);
+    std::memcpy(bytes.data() + (field * stride + index) * sizeof(Real), &stored, sizeof stored);
+  }
+  std::uint32_t id(std::size_t index) const {
+    std::uint32_t value;
+    std::memcpy(&value, bytes.data() + bytes.size() - (count - index) * sizeof value, sizeof value);
+    return value;
+  }
+  /// The place of the particle of this id.
+  std::size_t index_of(std::uint32_t wanted) const {
+    for (std::size_t i = 0; i < count; ++i)
+      if (id(i) == wanted) return i;
+    throw Error("no particle has the id " + std::to_string(wanted) + ".");
+  }
+
+  std::vector<char> bytes;
+  std::size_t count, stride;
+};
+
+inline bool all_finite(const FluidState& fluid) {
+  for (std::size_t i = 0; i < fluid.id.size(); ++i)
+    if (!fluid.position[i].allFinite() || !fluid.velocity[i].allFinite() || !std::isfinite(fluid.pressure[i]) ||
+        !std::isfinite(fluid.compression[i]))
+      return false;
+  return true;
+}
+
+inline double total(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+}  // namespace wavetank
