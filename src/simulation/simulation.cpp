@@ -191,7 +191,11 @@ void Simulation::restore(const std::string& path) {
   if (snapshot.scene != flow_of(parts.scene))
     throw Error("the snapshot " + path +
                 " belongs to another case: everything but title, duration, device and publishing must be the same.");
-  parts.solver->restore(snapshot.fluid);
+  try {
+    parts.solver->restore(snapshot.fluid);
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
   if (snapshot.device != device_description())
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;

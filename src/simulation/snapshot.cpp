@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -93,6 +94,8 @@ void write_snapshot(const std::string& path, const Snapshot& snapshot) {
 }
 
 Snapshot read_snapshot(const std::string& path) {
+  std::error_code failure;
+  if (std::filesystem::is_directory(path, failure)) throw Error("cannot read the snapshot " + path + ": it is a directory.");
   std::ifstream stream(path, std::ios::binary);
   const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) throw Error("cannot read the snapshot " + path + ": " + std::strerror(errno) + ".");
