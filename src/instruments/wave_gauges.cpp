@@ -83,23 +83,15 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
   std::vector<double> levels;
   if (lines_.empty()) return levels;
   const std::vector<PointValue> values = solver.evaluate(*points_);
-  // above 0 in the fluid, below 0 in the air
-  const auto wetness = [&](std::size_t k) {
-    if (!open_[k] || values[k].shepard < 0.1) return -0.5;
-    return values[k].filling / std::min(values[k].shepard, 1.0) - 0.5;
+  // how much of the kernel the fluid fills, the walls' share apart: 1 in the fluid, 1/2 on its surface, 0 in the air
+  const auto filling = [&](std::size_t k) {
+    if (!open_[k] || values[k].shepard < 0.1) return 0.0;
+    return std::min(values[k].filling / std::min(values[k].shepard, 1.0), 1.0);
   };
   for (const Line& line : lines_) {
-    double wet = 0;
-    for (std::size_t k = line.begin; k + 1 < line.end; ++k) {
-      const double lower = wetness(k), upper = wetness(k + 1);
-      if (lower > 0 && upper > 0)
-        wet += interval_;
-      else if (lower > 0)
-        wet += interval_ * lower / (lower - upper);
-      else if (upper > 0)
-        wet += interval_ * upper / (upper - lower);
-    }
-    levels.push_back(line.floor + wet);
+    double water = 0;
+    for (std::size_t k = line.begin; k + 1 < line.end; ++k) water += 0.5 * interval_ * (filling(k) + filling(k + 1));
+    levels.push_back(line.floor + water);
   }
   return levels;
 }

@@ -8,9 +8,9 @@
 
 namespace wavetank {
 
-/// Levels on vertical lines. A gauge reads the height of the floor plus the length of its line that is wet, as a resistance wire does: wet
-/// is where the fluid fills more than half of the kernel, the walls' share apart. Resolution: linear between points a quarter of the
-/// spacing apart.
+/// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
+/// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
+/// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
 class WaveGauges {
  public:
   WaveGauges(const Case& scene, const Layout& layout, const Solver& solver);

@@ -96,7 +96,7 @@ struct NumericsCase {
   double artificial_viscosity = 0.02;          ///< α
   EquationOfState equation_of_state = EquationOfState::linear;
   ViscosityModel viscosity_model = ViscosityModel::monaghan_gingold;
-  NegativePressure negative_pressure = NegativePressure::allowed;
+  NegativePressure negative_pressure = NegativePressure::clamped;
   Shifting shifting = Shifting::none;
   Integrator integrator = Integrator::symplectic;
   double courant = 0.5;  ///< Δt as a fraction of h/(c₀ + |u|)

@@ -56,7 +56,7 @@ typedef struct {
 
 // what the fluid does to a wall element
 #define LOAD_PRESSURE 0
-#define LOAD_SHEAR_X 1        // μ ∂u/∂n, tangential
+#define LOAD_SHEAR_X 1        // viscosity × ∂u/∂n, tangential
 #define LOAD_SHEAR_Y 2
 #define LOAD_SHEAR_Z 3
 #define LOAD_COUNT 4

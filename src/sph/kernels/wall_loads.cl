@@ -1,12 +1,12 @@
-// What the fluid does to each wall element: the pressure p_s = Σ_j [p_j + ρ_j g·(x_s−x_j)] W V_j / Σ_j W V_j ([G]), zero where no fluid is near; with
+// What the fluid does to each wall element: its pressure, zero where no fluid is near; with
 // WITH_SHEAR also the shear stress μ u_t/d of the same average (only the instruments ask for it).
-#include "common.cl"
+#include "linear_fit.cl"
 #define SWEEP_PARTICLES
 
 typedef struct {
   __global const real* state;
   int stride;
-  real weight, pressure;
+  linear_fit_t fit;
 #if WITH_SHEAR
   real normal_x, normal_y, normal_z;
   real shear_x, shear_y, shear_z;
@@ -21,8 +21,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   const real density = p->density * (R(1.0) + state[FIELD_COMPRESSION * n + j]);
   // r = x_j − x_s
   const real head = p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz;
-  a->weight += weight;
-  a->pressure += weight * (state[FIELD_PRESSURE * n + j] - density * head);
+  add_to_fit(&a->fit, weight, state[FIELD_PRESSURE * n + j] - density * head, rx, ry, rz);
 #if WITH_SHEAR
   const real u = state[FIELD_U * n + j], w = state[FIELD_W * n + j];
   const real v = DIMENSIONS == 3 ? state[FIELD_V * n + j] : R(0.0);
@@ -53,9 +52,10 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
   a.normal_z = walls[WALL_NORMAL_Z * wall_stride + s];
 #endif
   sweep_particles(&a, p, cell_start, state, stride, walls[WALL_X * wall_stride + s], walls[WALL_Y * wall_stride + s], walls[WALL_Z * wall_stride + s]);
-  const real scale = a.weight > DRY ? R(1.0) / a.weight : R(0.0);
-  loads[LOAD_PRESSURE * wall_stride + s] = a.pressure * scale;
+  const bool wet = a.fit.weight > DRY;
+  loads[LOAD_PRESSURE * wall_stride + s] = wet ? fitted_pressure(p, &a.fit) : R(0.0);
 #if WITH_SHEAR
+  const real scale = wet ? R(1.0) / a.fit.weight : R(0.0);
   loads[LOAD_SHEAR_X * wall_stride + s] = p->viscosity * a.shear_x * scale;
   loads[LOAD_SHEAR_Y * wall_stride + s] = p->viscosity * a.shear_y * scale;
   loads[LOAD_SHEAR_Z * wall_stride + s] = p->viscosity * a.shear_z * scale;

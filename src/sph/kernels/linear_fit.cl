@@ -1,0 +1,66 @@
+// The fluid's pressure on a wall by a weighted linear fit. What hydrostatics explains is taken out first, and the slope that is left is fitted with a
+// small ridge, so that a few particles in a droplet give their average and many give the true slope: an average alone misses what an impact or a curved
+// stream adds towards a wall.
+#include "common.cl"
+
+typedef struct {
+  real weight, pressure;          // Σ w, Σ w p
+  real x, y, z;                   // Σ w r
+  real xx, xy, xz, yy, yz, zz;    // Σ w r r
+  real px, py, pz;                // Σ w p r
+} linear_fit_t;
+
+// r = x_j − x; pressure is the particle's own, carried to the point by hydrostatics.
+INLINE void add_to_fit(linear_fit_t* f, real weight, real pressure, real rx, real ry, real rz) {
+  const real wx = weight * rx, wz = weight * rz;
+  f->weight += weight;
+  f->pressure += weight * pressure;
+  f->x += wx;
+  f->z += wz;
+  f->xx += wx * rx;
+  f->xz += wx * rz;
+  f->zz += wz * rz;
+  f->px += wx * pressure;
+  f->pz += wz * pressure;
+#if DIMENSIONS == 3
+  const real wy = weight * ry;
+  f->y += wy;
+  f->xy += wx * ry;
+  f->yy += wy * ry;
+  f->yz += wy * rz;
+  f->py += wy * pressure;
+#endif
+}
+
+#define FIT_RIDGE R(0.02)  // of h²
+
+// The fitted pressure at the point itself. The weights' sum must not be zero.
+INLINE real fitted_pressure(__constant const parameters_t* p, const linear_fit_t* f) {
+  const real scale = R(1.0) / f->weight;
+  const real mean = f->pressure * scale;
+  const real mx = f->x * scale, mz = f->z * scale;
+  const real ridge = FIT_RIDGE * p->smoothing_length * p->smoothing_length;
+  const real xx = f->xx * scale - mx * mx + ridge;
+  const real xz = f->xz * scale - mx * mz;
+  const real zz = f->zz * scale - mz * mz + ridge;
+  const real bx = f->px * scale - mean * mx, bz = f->pz * scale - mean * mz;
+#if DIMENSIONS == 3
+  const real my = f->y * scale;
+  const real xy = f->xy * scale - mx * my;
+  const real yy = f->yy * scale - my * my + ridge;
+  const real yz = f->yz * scale - my * mz;
+  const real by = f->py * scale - mean * my;
+  const real c_xx = yy * zz - yz * yz, c_xy = xz * yz - xy * zz, c_xz = xy * yz - xz * yy;
+  const real c_yy = xx * zz - xz * xz, c_yz = xy * xz - xx * yz, c_zz = xx * yy - xy * xy;
+  const real inverse = R(1.0) / (xx * c_xx + xy * c_xy + xz * c_xz);
+  const real gx = inverse * (c_xx * bx + c_xy * by + c_xz * bz);
+  const real gy = inverse * (c_xy * bx + c_yy * by + c_yz * bz);
+  const real gz = inverse * (c_xz * bx + c_yz * by + c_zz * bz);
+  return mean - (gx * mx + gy * my + gz * mz);
+#else
+  const real inverse = R(1.0) / (xx * zz - xz * xz);
+  const real gx = inverse * (zz * bx - xz * bz);
+  const real gz = inverse * (xx * bz - xz * bx);
+  return mean - (gx * mx + gz * mz);
+#endif
+}
