@@ -15,6 +15,18 @@ foreach(library ${rooms})
   endforeach()
 endforeach()
 
+# Every kernel on a few hundred particles, each access watched by oclgrind.
+add_executable(every_kernel EXCLUDE_FROM_ALL test/oclgrind/every_kernel.cpp)
+target_link_libraries(every_kernel wavetank_sph)
+if(WAVETANK_STANDALONE)
+  set_target_properties(every_kernel PROPERTIES EXCLUDE_FROM_ALL FALSE)
+endif()
+if(TARGET tests)
+  add_dependencies(tests every_kernel)
+endif()
+add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/watched_by_oclgrind.sh
+  ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
+
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)
   find_package(rostest REQUIRED)

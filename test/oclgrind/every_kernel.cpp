@@ -1,0 +1,64 @@
+// Runs every kernel of the solver on a few hundred particles in 2-D and 3-D, to be watched by oclgrind. Prints what it ran.
+#include <cstdio>
+#include <exception>
+#include <set>
+
+#include "wavetank/compute/device.h"
+#include "wavetank/sph/solver.h"
+
+namespace {
+
+using wavetank::Vector3d;
+
+wavetank::Case column(int dimensions, wavetank::DensityDiffusion diffusion) {
+  const double across = dimensions == 3 ? 0.2 : 0.0;
+  wavetank::Case scene;
+  scene.dimensions = dimensions;
+  scene.fluid.spacing = dimensions == 3 ? 0.05 : 0.025;
+  scene.fluid.fill = {wavetank::Box{Vector3d::Zero(), Vector3d(0.25, across, 0.3)}};
+  scene.tank.shape = wavetank::BoxTank{Vector3d(0.5, across, 0.4), Vector3d::Zero(), false};
+  scene.bodies.push_back({"box", wavetank::Box{Vector3d(0.3, 0.05, 0.0), Vector3d(0.4, 0.15, 0.1)}, wavetank::Motion::fixed});
+  scene.numerics.density_diffusion = diffusion;
+  return scene;
+}
+
+void run(const wavetank::compute::Device& device, const wavetank::Case& checked) {
+  const wavetank::Layout layout = wavetank::lay_out(checked, {});
+  const wavetank::Case scene = wavetank::settled(checked, layout);
+  const auto solver =
+      wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)});
+  solver->pack(2, {});
+  solver->start();
+  for (int step = 0; step < 2; ++step) solver->advance();
+  const auto points = solver->make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.5, 0.2, 0.4), Vector3d(0.45, 0.1, 0.35)});
+  const double pressure = solver->evaluate(*points)[1].pressure;
+  const double force = solver->wrenches()[0][0].z();
+  const double energy = solver->energies().potential;
+  const std::vector<char> saved = solver->save();
+  solver->restore(saved);
+  const std::size_t surface = solver->download().surface.size();
+  std::printf("%d-D, diffusion %d: %zu particles (%zu downloaded), %zu wall elements, p = %.1f Pa, F = %.2f N, E = %.2f J\n",
+              scene.dimensions, static_cast<int>(scene.numerics.density_diffusion), solver->particle_count(), surface, layout.walls.size(),
+              pressure, force, energy);
+}
+
+}  // namespace
+
+int main() {
+  try {
+    const wavetank::compute::Device device(wavetank::compute::choose_device("auto"), true);
+    std::printf("%s\n", device.info().describe().c_str());
+    for (const int dimensions : {2, 3})
+      for (const auto diffusion : {wavetank::DensityDiffusion::fourtakas, wavetank::DensityDiffusion::antuono})
+        run(device, column(dimensions, diffusion));
+    std::set<std::string> kernels;
+    for (const auto& timing : device.timings()) kernels.insert(timing.kernel);
+    std::printf("kernels run:");
+    for (const std::string& kernel : kernels) std::printf(" %s", kernel.c_str());
+    std::printf("\n");
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
