@@ -1,0 +1,93 @@
+// A simulation that may not go on says which particle, where, when and in which step, and stops.
+#include <cstring>
+#include <limits>
+
+#include "../../src/simulation/snapshot.h"
+#include "../../src/sph/kernel_parameters.h"
+#include "simulation_fixture.h"
+
+namespace wavetank {
+namespace {
+
+class Watchdog : public SimulationTest {
+ protected:
+  /// Runs the dam break a little, puts `value` into one field of the particle `id` of its snapshot, and goes on from there.
+  std::string violation_of(std::uint32_t id, int field, float value) {
+    Simulation simulation(scene);
+    for (int k = 0; k < 7; ++k) simulation.advance();
+    simulation.save(path("snapshot"));
+    Snapshot snapshot = read_snapshot(path("snapshot"));
+    const std::size_t count = simulation.state().particles, stride = (count + 15) / 16 * 16;
+    std::size_t index = 0;
+    for (std::uint32_t stored = 0; index < count; ++index) {
+      std::memcpy(&stored, snapshot.fluid.data() + snapshot.fluid.size() - (count - index) * sizeof stored, sizeof stored);
+      if (stored == id) break;
+    }
+    EXPECT_LT(index, count);
+    std::memcpy(snapshot.fluid.data() + (static_cast<std::size_t>(field) * stride + index) * sizeof value, &value, sizeof value);
+    write_snapshot(path("edited"), snapshot);
+    simulation.restore(path("edited"));
+    time = simulation.state().time + simulation.state().time_step;
+    simulation.take_samples();
+    try {
+      simulation.advance();
+    } catch (const Violation& violation) {
+      simulation.take_samples();  // those up to then can still be taken
+      return violation.what();
+    }
+    ADD_FAILURE() << "no Violation was thrown";
+    return "";
+  }
+
+  static std::string shown(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+  }
+
+  void expect_parts(const std::string& message, const std::vector<std::string>& parts) const {
+    for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << "\"" << part << "\" is not in: " << message;
+    std::printf("%s\n", message.c_str());
+  }
+
+  Case scene = dam_break(0.04);
+  double time = 0;  ///< of the step that fails
+};
+
+TEST_F(Watchdog, ReportsAValueThatIsNotFinite) {
+  const std::string message = violation_of(12, field::w, std::numeric_limits<float>::quiet_NaN());
+  expect_parts(message, {"not finite", "particle ", "t = " + shown(time) + " s", "step 8"});
+}
+
+TEST_F(Watchdog, ReportsAParticleOutside) {
+  // coordinates on the device begin half a spacing outside the tank
+  const std::string message = violation_of(12, field::x, 1.5f);
+  expect_parts(message, {"1 outside the tank", "particle 12 ", "(1.48", "t = " + shown(time) + " s", "step 8"});
+}
+
+TEST_F(Watchdog, ReportsAParticleThatIsTooFast) {
+  const std::string message = violation_of(12, field::w, 20.0f);
+  expect_parts(message, {"faster than half the speed of sound", "particle 12 ", "velocity", "t = " + shown(time) + " s", "step 8"});
+}
+
+TEST_F(Watchdog, StopsACaseThatExplodes) {
+  scene.fluid.sound_speed = 1.5;  // the fall alone reaches 2.8 m/s
+  Simulation simulation(scene);
+  std::string message;
+  for (int k = 0; k < 5000 && message.empty(); ++k) try {
+      simulation.advance();
+    } catch (const Violation& violation) {
+      message = violation.what();
+    }
+  ASSERT_FALSE(message.empty()) << "it went on to t = " << simulation.state().time;
+  expect_parts(message, {"particle ", " m with velocity ", "t = " + shown(simulation.state().time) + " s",
+                         "step " + std::to_string(simulation.state().step)});
+  const Samples samples = simulation.take_samples();
+  EXPECT_GT(samples.pressures.size(), 1u);
+  for (const PressureSample& sample : samples.pressures)
+    for (const double pressure : sample.pressures) EXPECT_TRUE(std::isfinite(pressure));
+  simulation.save(path("at_the_end"));  // the state can still be written
+}
+
+}  // namespace
+}  // namespace wavetank
