@@ -14,7 +14,9 @@ typedef struct {
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
   // seen from where the elements before this one left the particle
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx - a->x, ry - a->y, rz - a->z);
-  if (!view.over || view.distance > p->guard_distance || view.distance < -R(2.0) * BEHIND_TOLERANCE * p->spacing) return;
+  // behind a wall as far as half a spacing on the element itself, by no more than the guard distance beside it: there a body's own side may lie
+  const real deepest = view.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
+  if (!view.near_over || view.distance > p->guard_distance || view.distance < deepest) return;
   const real approach = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
   if (approach > R(0.0)) {
     a->u -= approach * view.normal_x;

@@ -9,6 +9,7 @@ typedef struct {
   real along;        // signed tangential coordinates of the element's centre
   real across;
   bool over;         // the point's foot lies on the element
+  bool near_over;    // or on what a whole element there would cover: one clipped by a body leaves strips that its square does not
 } wall_view_t;
 
 // Points this far behind an element that they stand over count as lying on its fluid side: rounding and the guard's own tolerance; far above the
@@ -41,6 +42,8 @@ INLINE wall_view_t view_wall(__constant const parameters_t* p, __global const re
 #endif
   const real reach = v.half_side + R(0.01) * p->spacing;
   v.over = fabs(v.along) <= reach && fabs(v.across) <= reach;
+  const real whole = fmax(reach, R(0.51) * p->spacing);
+  v.near_over = fabs(v.along) <= whole && fabs(v.across) <= whole;
   return v;
 }
 
