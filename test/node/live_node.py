@@ -47,9 +47,15 @@ class Ear:
     def __init__(self):
         self.lock = threading.Lock()
         self.heard = {topic: [] for topic in TOPICS}
-        # The lists that the node waits for come last: when it begins, the others are connected.
-        order = sorted(TOPICS, key=lambda topic: topic in ("/wavetank/probes", "/wavetank/gauges"))
-        self.subscribers = [rospy.Subscriber(topic, TOPICS[topic], self.hear, topic, queue_size=10000) for topic in order]
+        # The node begins when its lists are listened to: they come last, once the topics of single instruments are connected.
+        waited_for = ("/wavetank/probes", "/wavetank/gauges")
+        self.subscribers = [self.subscribe(topic) for topic in TOPICS if topic not in waited_for]
+        single = [subscriber for subscriber in self.subscribers if subscriber.name.startswith(("/wavetank/probes/", "/wavetank/bodies/"))]
+        self.wait(lambda: all(subscriber.get_num_connections() > 0 for subscriber in single), "a connection to each instrument")
+        self.subscribers += [self.subscribe(topic) for topic in waited_for]
+
+    def subscribe(self, topic):
+        return rospy.Subscriber(topic, TOPICS[topic], self.hear, topic, queue_size=10000)
 
     def hear(self, message, topic):
         with self.lock:
