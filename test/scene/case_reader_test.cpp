@@ -160,7 +160,7 @@ TEST(CaseReader, FillsInTheStructsDefaults) {
   EXPECT_EQ(read.instruments.rate, defaults.instruments.rate);
   EXPECT_FALSE(std::get<BoxTank>(read.tank.shape).closed);
   const std::string written = write_case(read);
-  for (const char* line : {"sound_speed: auto", "support: auto", "gauge_rate: auto", "courant: 0.4", "bodies: []", "world_frame: tank"}) {
+  for (const char* line : {"sound_speed: auto", "support: auto", "gauge_rate: auto", "courant: 0.5", "bodies: []", "world_frame: tank"}) {
     EXPECT_NE(written.find(line), std::string::npos) << line;
   }
 }
