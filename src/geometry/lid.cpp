@@ -64,6 +64,8 @@ WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int 
   element.tangent = axis == 0 ? Vector3d::UnitZ() : Vector3d::UnitX();
   element.centre = centre + 0.5 * region.step[axis] * element.normal;
   element.area = region.volume / region.step[axis];
+  const int along = axis == 0 ? 2 : 0, across = 3 - axis - along;
+  if (region.step[across] > 0) element.elongation = region.step[along] / region.step[across];  // there is no other side in 2-D
   return element;
 }
 

@@ -29,6 +29,23 @@ Box TriangleMesh::bounding_box() const {
   return box;
 }
 
+Vector3d TriangleMesh::centre_of_volume() const {
+  // Tetrahedra from the middle of the box, so that a mesh far from the origin loses no digits.
+  const Box box = bounding_box();
+  const Vector3d middle = (box.min + box.max) / 2.0;
+  double volume = 0.0;
+  Vector3d moment = Vector3d::Zero();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Vector3d a = corner(i, 0) - middle, b = corner(i, 1) - middle, c = corner(i, 2) - middle;
+    const double tetrahedron = a.dot(b.cross(c)) / 6.0;
+    volume += tetrahedron;
+    moment += tetrahedron * (a + b + c) / 4.0;
+  }
+  const double scale = (box.max - box.min).norm();
+  if (std::abs(volume) <= 1e-9 * scale * scale * scale) return middle;
+  return middle + moment / volume;
+}
+
 double TriangleMesh::signed_volume() const {
   if (triangles.empty()) return 0;
   const Vector3d reference = corner(0, 0);  // near the mesh: keeps the digits of a mesh far from the origin

@@ -19,6 +19,7 @@ struct Facing {
   Vector3d flux = Vector3d::Zero();    ///< Σ area × normal, out of the fluid
   double area = 0;
   double divergence = 0;  ///< Σ area × centre · normal
+  Polygon corners;        ///< of its pieces
 
   void add(const Polygon& piece, const Vector3d& normal_out, double factor) {
     const double part = factor * vector_area(piece).norm();
@@ -27,6 +28,7 @@ struct Facing {
     flux += part * normal_out;
     area += part;
     divergence += part * centre.dot(normal_out);
+    corners.insert(corners.end(), piece.begin(), piece.end());
   }
 
   void add(const Facing& other) {
@@ -34,6 +36,7 @@ struct Facing {
     flux += other.flux;
     area += other.area;
     divergence += other.divergence;
+    corners.insert(corners.end(), other.corners.begin(), other.corners.end());
   }
 };
 
@@ -200,6 +203,24 @@ void join_small(std::vector<Unfinished>& elements, double spacing, const Vector3
   elements = std::move(result);
 }
 
+/// Gives the element the sides of a rectangle of its area and of the proportions of what it stands for.
+void fit_rectangle(WallElement& wall, const Polygon& corners) {
+  const Vector3d axis[2] = {wall.tangent, wall.normal.cross(wall.tangent)};
+  double extent[2], reach[2];
+  for (int k = 0; k < 2; ++k) {
+    double least = 0, most = 0;
+    for (const Vector3d& corner : corners) {
+      least = std::min(least, axis[k].dot(corner - wall.centre));
+      most = std::max(most, axis[k].dot(corner - wall.centre));
+    }
+    extent[k] = most - least;
+    reach[k] = std::max(most, -least);
+  }
+  wall.elongation = extent[0] / extent[1];
+  const double half[2] = {0.5 * std::sqrt(wall.area * wall.elongation), 0.5 * std::sqrt(wall.area / wall.elongation)};
+  wall.gap = std::max({reach[0] - half[0], reach[1] - half[1], 0.0});
+}
+
 }  // namespace
 
 std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
@@ -229,6 +250,7 @@ std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int o
     wall.centre += (element.facing.divergence / wall.area - wall.centre.dot(wall.normal)) * wall.normal;
     wall.tangent = (element.tangent - wall.normal.dot(element.tangent) * wall.normal).normalized();
     wall.owner = owner;
+    fit_rectangle(wall, element.facing.corners);
     walls.push_back(wall);
   }
   return walls;

@@ -101,24 +101,6 @@ geometry_msgs::WrenchStamped SampleMessages::wrench(std::size_t index, Part part
   return message;
 }
 
-Vector3d centre_of_volume(const TriangleMesh& mesh) {
-  // Tetrahedra from the middle of the box, so that a mesh far from the origin loses no digits.
-  const Box box = mesh.bounding_box();
-  const Vector3d middle = (box.min + box.max) / 2.0;
-  double volume = 0.0;
-  Vector3d moment = Vector3d::Zero();
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d a = mesh.corner(i, 0) - middle, b = mesh.corner(i, 1) - middle, c = mesh.corner(i, 2) - middle;
-    const double tetrahedron = a.dot(b.cross(c)) / 6.0;
-    volume += tetrahedron;
-    moment += tetrahedron * (a + b + c) / 4.0;
-  }
-  // A surface that encloses next to nothing has no centre of volume to speak of.
-  const double scale = (box.max - box.min).norm();
-  if (std::abs(volume) <= 1e-9 * scale * scale * scale) return middle;
-  return middle + moment / volume;
-}
-
 std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout) {
   const PublishingCase& publishing = checked.publishing;
   std::vector<geometry_msgs::TransformStamped> transforms;
@@ -126,7 +108,7 @@ std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& check
     transforms.push_back(translation(publishing.world_frame, probe_frame(publishing, probe.name), probe.position));
   for (std::size_t i = 0; i < checked.bodies.size(); ++i)
     transforms.push_back(
-        translation(publishing.world_frame, body_frame(publishing, checked.bodies[i].name), centre_of_volume(layout.meshes[i + 1])));
+        translation(publishing.world_frame, body_frame(publishing, checked.bodies[i].name), layout.meshes[i + 1].centre_of_volume()));
   return transforms;
 }
 

@@ -25,21 +25,6 @@ std::string number(double value, const char* format = "%.6g") {
 
 std::string point(const Vector3d& p) { return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")"; }
 
-/// The centre of a closed mesh's volume; of its bounding box where it encloses none.
-Vector3d centre_of_volume(const TriangleMesh& mesh) {
-  Vector3d sum = Vector3d::Zero();
-  double volume = 0;
-  const Box bounds = mesh.bounding_box();
-  const Vector3d middle = 0.5 * (bounds.min + bounds.max);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle, c = mesh.corner(t, 2) - middle;
-    const double part = a.dot(b.cross(c)) / 6.0;
-    volume += part;
-    sum += part * 0.25 * (a + b + c);
-  }
-  return std::abs(volume) > 1e-30 ? Vector3d(middle + sum / volume) : middle;
-}
-
 /// Where torques are taken about: the case's origin for the tank, the centre of volume for a body.
 std::vector<Vector3d> torque_centres(const Case& scene, const Layout& layout) {
   std::vector<Vector3d> centres{Vector3d::Zero()};
@@ -47,7 +32,7 @@ std::vector<Vector3d> torque_centres(const Case& scene, const Layout& layout) {
     if (const Box* box = std::get_if<Box>(&scene.bodies[b].shape))
       centres.emplace_back(0.5 * (box->min + box->max));
     else
-      centres.push_back(centre_of_volume(layout.meshes[1 + b]));
+      centres.push_back(layout.meshes[1 + b].centre_of_volume());
     if (scene.dimensions == 2) centres.back().y() = 0;
   }
   return centres;

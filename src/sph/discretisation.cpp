@@ -42,6 +42,8 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   d.upper = layout.domain.max + margin;
   const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
   const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper.z() - d.lower.z()));
+  d.rim = layout.domain.max.z();
+  d.splash_guard = settled_case.tank.splash_guard;
   d.origin = d.lower;
   if (d.dimensions == 2) d.origin.y() = 0.0;
 

@@ -1,6 +1,7 @@
 #include "kernel_parameters.h"
 
 #include <cmath>
+#include <limits>
 
 namespace wavetank {
 
@@ -43,6 +44,7 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Discretisation
   p.upper_x = real(d.upper.x() - d.origin.x());
   p.upper_y = real(d.upper.y() - d.origin.y());
   p.upper_z = real(d.upper.z() - d.origin.z());
+  p.rim_z = d.splash_guard ? real(d.rim - d.origin.z()) : std::numeric_limits<Real>::max();
   p.cells_x = d.cells[0];
   p.cells_y = d.cells[1];
   p.cells_z = d.cells[2];

@@ -1,6 +1,7 @@
 #include "wall_arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace wavetank {
@@ -41,7 +42,11 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
       values[static_cast<std::size_t>(field::normal_x + axis) * stride + s] = static_cast<Real>(element.normal[axis]);
       values[static_cast<std::size_t>(field::tangent_x + axis) * stride + s] = static_cast<Real>(element.tangent[axis]);
     }
-    values[static_cast<std::size_t>(field::area) * stride + s] = static_cast<Real>(element.area);
+    const auto set = [&](int member, double value) { values[static_cast<std::size_t>(member) * stride + s] = static_cast<Real>(value); };
+    set(field::area, element.area);
+    set(field::half_along, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
+    set(field::half_across, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
+    set(field::gap, element.gap);
   }
   fields = compute::Buffer<Real>(device, values);
   starts = compute::Buffer<int>(device, begin);

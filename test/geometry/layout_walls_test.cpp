@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
 
@@ -195,6 +196,28 @@ TEST_F(LayoutWalls, ABoxOnTheFloorUncoversExactlyItsFootprint) {
                        wall.centre.y() > box.min.y() && wall.centre.y() < box.max.y();
     EXPECT_FALSE(under) << wall.centre.transpose();
   }
+}
+
+TEST_F(LayoutWalls, ElementsBesideABoxAreRectanglesThatEndThere) {
+  Case checked = box_case(Vector3d(1, 1, 0.8), 0.5, 0.05);
+  const Box box{Vector3d(0.312, 0.287, 0), Vector3d(0.668, 0.701, 0.2)};
+  add_body(checked, box_mesh(box, false, ""));
+  int corners = 0;
+  for (const WallElement& wall : lay_out(checked).walls) {
+    if (wall.gap > 1e-6) {  // a cell that a corner of the box takes a bite from
+      ++corners;
+      EXPECT_LT(wall.gap, 0.025);
+      continue;
+    }
+    if (wall.owner != 0 || wall.centre.z() > 1e-9) continue;
+    const Vector3d along = wall.tangent.cwiseAbs(), across = wall.normal.cross(wall.tangent).cwiseAbs();
+    const Vector3d half = 0.5 * (std::sqrt(wall.area * wall.elongation) * along + std::sqrt(wall.area / wall.elongation) * across);
+    for (int axis = 0; axis < 2; ++axis) EXPECT_LT(half[axis], 0.5 * 0.0551) << "a sliver at most is joined to a cell";
+    const bool beside = (wall.centre + half - box.min).head<2>().minCoeff() < 1e-6 ||
+                        (box.max - (wall.centre - half)).head<2>().minCoeff() < 1e-6;
+    EXPECT_TRUE(beside) << wall.centre.transpose() << " reaches under the box";
+  }
+  EXPECT_LE(corners, 4);
 }
 
 TEST_F(LayoutWalls, ABodyThroughAWallShowsOnlyItsPartInside) {

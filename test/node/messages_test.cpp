@@ -104,23 +104,6 @@ TEST(Names, ThatShareATopicAreRefused) {
   }
 }
 
-TEST(CentreOfVolume, OfAWedgeFarAway) {
-  // A right prism over the triangle (0,0) (3,0) (0,3) in x-z, 1 deep: its centre is a third along.
-  TriangleMesh wedge;
-  const Vector3d far(1000, -2000, 500);
-  for (const double y : {0.0, 1.0})
-    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(3, y, 0), Vector3d(0, y, 3)}) wedge.vertices.push_back(far + corner);
-  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
-  EXPECT_LT((centre_of_volume(wedge) - far - Vector3d(1.0, 0.5, 1.0)).norm(), 1e-9);
-}
-
-TEST(CentreOfVolume, OfAFlatMeshIsTheMiddleOfItsBox) {
-  TriangleMesh flat;
-  flat.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 4, 0}};
-  flat.triangles = {{0, 1, 2}};
-  EXPECT_LT((centre_of_volume(flat) - Vector3d(1, 2, 0)).norm(), 1e-12);
-}
-
 TEST(StaticTransforms, PlaceProbesAndBodiesUnderTheWorldFrame) {
   const auto transforms = static_transforms(example_case(), example_layout());
   ASSERT_EQ(transforms.size(), 3U);

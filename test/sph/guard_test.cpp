@@ -134,6 +134,57 @@ TEST(Guard, ABlockOfFluidStaysInFrontOfWalls) {
   EXPECT_GT(shoot(weightless(size, obstacle), shots, 300).guard_hits, 0) << "the guard had nothing to do: the shots missed";
 }
 
+/// Lone particles thrown upwards and outwards from near the sides of an open tank; the number of steps until the watchdog speaks, or all.
+int throw_over_the_rim(bool splash_guard, double width, int steps) {
+  Case scene = box_case(Vector3d(1, width, 0.5), 0.1, spacing);
+  scene.fluid.sound_speed = sound_speed;
+  scene.tank.splash_guard = splash_guard;
+  std::vector<Vector3d> from, velocity;
+  for (const double side : {-1.0, 1.0}) {
+    from.push_back(Vector3d(0.5 + 0.4 * side, 0.5 * width, 0.4));
+    velocity.push_back(Vector3d(side, 0, 3));
+    if (width == 0) continue;
+    from.push_back(Vector3d(0.5 + 0.2 * side, width * (0.5 + 0.4 * side), 0.4));
+    velocity.push_back(Vector3d(0.1 * side, side, 3));
+    from.push_back(Vector3d(0.5 - 0.4 * side, width * (0.5 + 0.4 * side), 0.4));  // at a corner
+    velocity.push_back(Vector3d(-side, side, 3));
+  }
+  Layout layout = lay_out(scene);
+  layout.particles = from;
+  layout.volumes.assign(from.size(), std::pow(spacing, scene.dimensions));
+  layout.levels.assign(from.size(), 0.1);
+  Tank tank(scene, layout);
+  tank.solver->start();
+  StateBytes<float> state(*tank.solver);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[state.id(i)][axis]);
+  tank.solver->restore(state.bytes);
+  double highest = 0, time = 0;
+  for (int step = 0; step < steps; ++step) {
+    const StepReport report = tank.solver->advance();
+    if (report.offender >= 0) return step;
+    time += report.time_step;
+    for (const Vector3d& place : tank.solver->download().position) {
+      highest = std::max(highest, place.z());
+      const double outside = std::max({-place.x(), place.x() - 1, -place.y(), place.y() - width});
+      if (splash_guard) EXPECT_LT(outside, 1e-5) << "after " << time << " s at " << place.transpose();
+    }
+  }
+  EXPECT_GT(highest, 0.7) << "none came above the rim";
+  EXPECT_GT(time, 0.7) << "none came down again";
+  return steps;
+}
+
+TEST(SplashGuard, KeepsSprayOverTheTank) {
+  EXPECT_EQ(throw_over_the_rim(true, 0.6, 240), 240);
+  EXPECT_EQ(throw_over_the_rim(true, 0, 240), 240);
+}
+
+TEST(SplashGuard, WithoutItSprayIsLostAndReported) {
+  EXPECT_LT(throw_over_the_rim(false, 0.6, 240), 240);
+  EXPECT_LT(throw_over_the_rim(false, 0, 240), 240);
+}
+
 TEST(Guard, RandomShotsStayInFrontOfWalls) {
   const unsigned seed = 7;
   std::mt19937 random(seed);

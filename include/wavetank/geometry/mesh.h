@@ -21,6 +21,8 @@ struct TriangleMesh {
   Box bounding_box() const;
   /// By the divergence theorem, positive when a closed mesh's triangles are wound outwards. m³.
   double signed_volume() const;
+  /// Of a closed mesh, m; the middle of the bounding box where next to nothing is enclosed.
+  Vector3d centre_of_volume() const;
 };
 
 /// Turns a URI of a scheme that geometry does not know (package://) into a path; throws Error if it cannot.

@@ -64,9 +64,6 @@ class SampleMessages {
   std::vector<std::string> wrench_topics_, wrench_frames_;
 };
 
-/// Where a body's wrench is reduced and its frame lies: the centre of volume of a closed mesh, else the middle of its bounding box. m.
-Vector3d centre_of_volume(const TriangleMesh& mesh);
-
 /// world → every probe and every body, none of which moves; with stamp 0, as static transforms have.
 std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout);
 

@@ -51,6 +51,7 @@ struct BoxTank {
 
 struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
+  bool splash_guard = true;  ///< spray above the rim is kept over the tank, as by smooth walls on its bounding box; else it is lost and the run stops
 };
 
 enum class Motion { fixed };

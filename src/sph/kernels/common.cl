@@ -52,7 +52,10 @@ typedef struct {
 #define WALL_TANGENT_Y 7
 #define WALL_TANGENT_Z 8
 #define WALL_AREA 9
-#define WALL_COUNT 10
+#define WALL_HALF_ALONG 10
+#define WALL_HALF_ACROSS 11
+#define WALL_GAP 12
+#define WALL_COUNT 13
 
 // what the fluid does to a wall element
 #define LOAD_PRESSURE 0

@@ -1,5 +1,6 @@
 // Guard against penetration [G]: a particle nearer to a wall than the guard distance and approaching it loses its normal velocity relative to the wall;
-// one that rounding or a violent step put behind the wall is set back onto it.
+// one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an open tank, where there
+// is no wall, on the sides of the tank's bounding box.
 #include "wall_element.cl"
 #define SWEEP_WALLS
 
@@ -16,7 +17,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx - a->x, ry - a->y, rz - a->z);
   // behind a wall as far as half a spacing on the element itself, by no more than the guard distance beside it: there a body's own side may lie
   const real deepest = view.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
-  if (!view.near_over || view.distance > p->guard_distance || view.distance < deepest) return;
+  if (beside_wall(&view) > view.gap + BORDER * p->spacing || view.distance > p->guard_distance || view.distance < deepest) return;
   const real approach = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
   if (approach > R(0.0)) {
     a->u -= approach * view.normal_x;
@@ -33,11 +34,37 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
 
 #include "sweep.cl"
 
+typedef struct {
+  real move, speed;
+  bool hit;
+} held_t;
+
+INLINE held_t hold_between(real at, real speed, real lower, real upper, real guard_distance) {
+  held_t held;
+  held.move = fmax(lower - at, R(0.0)) + fmin(upper - at, R(0.0));
+  held.hit = (at < lower + guard_distance && speed < R(0.0)) || (at > upper - guard_distance && speed > R(0.0));
+  held.speed = held.hit ? R(0.0) : speed;
+  return held;
+}
+
 __kernel void guard(__constant const parameters_t* p, int count, __global const int* wall_start, __global const real* walls, int wall_stride,
                     __global const real* rates, __global real* state, int stride, __global int* hits) {
   const int i = get_global_id(0);
   if (i >= count) return;
   hits[i] = 0;
+  if (state[FIELD_Z * stride + i] > p->rim_z) {
+    const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
+    const held_t x = hold_between(state[FIELD_X * stride + i], state[FIELD_U * stride + i], p->lower_x + margin, p->upper_x - margin, p->guard_distance);
+    state[FIELD_X * stride + i] += x.move;
+    state[FIELD_U * stride + i] = x.speed;
+    hits[i] = x.hit ? 1 : 0;
+#if DIMENSIONS == 3
+    const held_t y = hold_between(state[FIELD_Y * stride + i], state[FIELD_V * stride + i], p->lower_y + margin, p->upper_y - margin, p->guard_distance);
+    state[FIELD_Y * stride + i] += y.move;
+    state[FIELD_V * stride + i] = y.speed;
+    hits[i] |= y.hit ? 1 : 0;
+#endif
+  }
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
   if (rates[RATE_CLEARANCE * stride + i] > p->guard_distance + R(0.25) * p->spacing) return;
   sweep_t a = {0};
@@ -48,7 +75,7 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   a.w = state[FIELD_W * stride + i];
   sweep_walls(&a, p, wall_start, walls, wall_stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
               state[FIELD_Z * stride + i]);
-  hits[i] = a.hits > 0 ? 1 : 0;
+  hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;
   state[FIELD_W * stride + i] = a.w;
   state[FIELD_X * stride + i] += a.x;

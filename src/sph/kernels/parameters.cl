@@ -30,6 +30,7 @@ real lower_z;
 real upper_x;
 real upper_y;
 real upper_z;
+real rim_z;               // above it, the splash guard keeps particles over the tank
 int cells_x;              // grid dimensions, a border of one empty cell included in each
 int cells_y;
 int cells_z;
