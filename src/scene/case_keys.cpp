@@ -80,7 +80,8 @@ Section<TankCase> tank_section() {
   section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
   add_mesh_keys(section, &TankCase::shape);
   section.key("splash_guard", &TankCase::splash_guard, flag(), "",
-              "Keeps spray above the rim over the tank, as by smooth walls on its bounding box; without it, a particle that flies out stops the run.");
+              "Keeps spray above the rim over the tank, as by smooth walls on its bounding box; without it, a particle that flies out "
+              "stops the run.");
   return section;
 }
 

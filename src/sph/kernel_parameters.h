@@ -19,7 +19,22 @@ KernelParameters<Real> kernel_parameters(const Case& settled_case, const Discret
 namespace field {
 enum State { x, y, z, u, v, w, compression, pressure, volume, swept, mass = swept, rest_x, rest_y, rest_z, state_count };
 enum Rate { rate_u, rate_v, rate_w, rate_compression, rate_shepard, rate_clearance, rate_count };
-enum Wall { wall_x, wall_y, wall_z, normal_x, normal_y, normal_z, tangent_x, tangent_y, tangent_z, area, half_along, half_across, gap, wall_count };
+enum Wall {
+  wall_x,
+  wall_y,
+  wall_z,
+  normal_x,
+  normal_y,
+  normal_z,
+  tangent_x,
+  tangent_y,
+  tangent_z,
+  area,
+  half_along,
+  half_across,
+  gap,
+  wall_count
+};
 constexpr int load_count = 4;
 constexpr int wrench_count = 12;
 constexpr int watch_count = 2;

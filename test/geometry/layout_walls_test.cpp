@@ -213,8 +213,8 @@ TEST_F(LayoutWalls, ElementsBesideABoxAreRectanglesThatEndThere) {
     const Vector3d along = wall.tangent.cwiseAbs(), across = wall.normal.cross(wall.tangent).cwiseAbs();
     const Vector3d half = 0.5 * (std::sqrt(wall.area * wall.elongation) * along + std::sqrt(wall.area / wall.elongation) * across);
     for (int axis = 0; axis < 2; ++axis) EXPECT_LT(half[axis], 0.5 * 0.0551) << "a sliver at most is joined to a cell";
-    const bool beside = (wall.centre + half - box.min).head<2>().minCoeff() < 1e-6 ||
-                        (box.max - (wall.centre - half)).head<2>().minCoeff() < 1e-6;
+    const bool beside =
+        (wall.centre + half - box.min).head<2>().minCoeff() < 1e-6 || (box.max - (wall.centre - half)).head<2>().minCoeff() < 1e-6;
     EXPECT_TRUE(beside) << wall.centre.transpose() << " reaches under the box";
   }
   EXPECT_LE(corners, 4);

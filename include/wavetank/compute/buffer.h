@@ -18,12 +18,12 @@ class Memory {
   Memory& operator=(Memory&&) noexcept = default;
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
-  void write(const void* from, std::size_t bytes, std::size_t offset = 0);        ///< blocking
-  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;           ///< blocking, after everything queued before
+  void write(const void* from, std::size_t bytes, std::size_t offset = 0);  ///< blocking
+  void read(void* to, std::size_t bytes, std::size_t offset = 0) const;     ///< blocking, after everything queued before
   void fill_zero();
   void copy_from(const Memory& other, std::size_t bytes);
   std::size_t bytes() const { return bytes_; }
-  void* handle() const;   ///< the cl_mem
+  void* handle() const;  ///< the cl_mem
 
  private:
   struct State;

@@ -11,26 +11,26 @@
 namespace wavetank::compute {
 
 struct DeviceInfo {
-  int platform = 0;           ///< index in this list's platforms
-  int device = 0;             ///< index in its platform
+  int platform = 0;  ///< index in this list's platforms
+  int device = 0;    ///< index in its platform
   std::string platform_name;
   std::string name;
-  std::string driver;         ///< driver version
-  std::string version;        ///< OpenCL version string
+  std::string driver;   ///< driver version
+  std::string version;  ///< OpenCL version string
   bool is_gpu = false;
   bool has_double = false;
   unsigned compute_units = 0;
-  std::size_t global_memory = 0;      ///< bytes
-  std::size_t max_allocation = 0;     ///< bytes
+  std::size_t global_memory = 0;   ///< bytes
+  std::size_t max_allocation = 0;  ///< bytes
   std::size_t max_work_group = 0;
-  std::string describe() const;       ///< one line: "0:0 NAME (PLATFORM, driver D, 2 units, 23.4 GiB)"
+  std::string describe() const;  ///< one line: "0:0 NAME (PLATFORM, driver D, 2 units, 23.4 GiB)"
 };
 
 /// Every OpenCL device of the machine, in the loader's order; empty when there is none (no throw).
 std::vector<DeviceInfo> list_devices();
 
-/// `auto` = the first GPU, else the first CPU; `cpu`, `gpu`; "P:D" by indices; anything else = a part of the device's name, case-insensitive,
-/// which must match exactly one. Throws Error that lists what is there.
+/// `auto` = the first GPU, else the first CPU; `cpu`, `gpu`; "P:D" by indices; anything else = a part of the device's name,
+/// case-insensitive, which must match exactly one. Throws Error that lists what is there.
 DeviceInfo choose_device(const std::string& selector);
 
 struct KernelTiming {
@@ -48,10 +48,10 @@ class Device {
   explicit Device(const DeviceInfo& info, bool time_kernels = false);
 
   const DeviceInfo& info() const;
-  void finish() const;                              ///< waits for everything queued
-  std::vector<KernelTiming> timings() const;        ///< by kernel name, the dearest first; waits
+  void finish() const;                        ///< waits for everything queued
+  std::vector<KernelTiming> timings() const;  ///< by kernel name, the dearest first; waits
   void reset_timings();
-  std::size_t allocated() const;                    ///< bytes in live buffers
+  std::size_t allocated() const;  ///< bytes in live buffers
   struct State;
   const std::shared_ptr<State>& state() const { return state_; }
 

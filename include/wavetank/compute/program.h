@@ -10,8 +10,8 @@
 
 namespace wavetank::compute {
 
-/// Kernel sources by file name ("sweep.cl" → text), as embedded at build time. `#include "NAME"` in a source is resolved among them, each file
-/// at most once (as with #pragma once), with #line directives so that a build error names the kernel's own file and line.
+/// Kernel sources by file name ("sweep.cl" → text), as embedded at build time. `#include "NAME"` in a source is resolved among them, each
+/// file at most once (as with #pragma once), with #line directives so that a build error names the kernel's own file and line.
 using SourceFiles = std::map<std::string, std::string>;
 
 /// One kernel of a program. launch() queues it and returns at once.
@@ -55,8 +55,8 @@ class Program {
  public:
   Program() = default;
   /// Builds files[main] with its includes. `options` are OpenCL build options ("-DDIMENSIONS=3 -cl-fast-relaxed-math").
-  /// Compiled programs are cached on disk ($WAVETANK_CACHE_DIRECTORY, else $XDG_CACHE_HOME/wavetank, else ~/.cache/wavetank; switched off by
-  /// WAVETANK_CACHE_DIRECTORY= empty), keyed by source, options, device and driver; a damaged or unwritable cache is never an error.
+  /// Compiled programs are cached on disk ($WAVETANK_CACHE_DIRECTORY, else $XDG_CACHE_HOME/wavetank, else ~/.cache/wavetank; switched off
+  /// by WAVETANK_CACHE_DIRECTORY= empty), keyed by source, options, device and driver; a damaged or unwritable cache is never an error.
   /// pocl has a cache of its own and uses this one only if WAVETANK_CACHE_DIRECTORY names it.
   /// A build error throws Error with the compiler's message and the offending source line.
   Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options);

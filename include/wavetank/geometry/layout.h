@@ -9,10 +9,10 @@ namespace wavetank {
 
 /// A piece of wall: a square in 3-D, a segment in 2-D, that stands for `area` of the wall about `centre`.
 struct WallElement {
-  Vector3d centre;   ///< m
-  Vector3d normal;   ///< unit, pointing out of the fluid
-  Vector3d tangent;  ///< unit, in the element's plane, along a side of the rectangle (2-D: along the segment, in the x–z plane)
-  double area = 0;   ///< m² in 3-D, m in 2-D
+  Vector3d centre;        ///< m
+  Vector3d normal;        ///< unit, pointing out of the fluid
+  Vector3d tangent;       ///< unit, in the element's plane, along a side of the rectangle (2-D: along the segment, in the x–z plane)
+  double area = 0;        ///< m² in 3-D, m in 2-D
   double elongation = 1;  ///< of the rectangle of this area that it is taken for: side along the tangent over the other (3-D)
   double gap = 0;         ///< m, by which the wall that it stands for reaches beyond that rectangle; 0 where it is one
   int owner = 0;          ///< 0 the tank, 1 + i body i
@@ -20,21 +20,21 @@ struct WallElement {
 
 /// A case's geometry, sampled at the particle spacing: what the solver starts from.
 struct Layout {
-  double spacing = 0;                          ///< m
-  Box domain;                                  ///< bounding box of the tank's walls, m (2-D: y = 0)
-  std::vector<TriangleMesh> meshes;            ///< 0 the tank, 1 + i body i; in 3-D and as given in 2-D
-  std::vector<WallElement> walls;              ///< in a fixed order, the same at every start
-  std::vector<WallElement> lid;                ///< temporary, closes the fluid's free surface while it is packed
-  std::vector<Vector3d> particles;             ///< centres, m
-  std::vector<double> volumes;                 ///< of each particle, m³ (2-D: m²)
-  std::vector<double> levels;                  ///< z of the free surface over each particle, as filled, m
-  std::vector<bool> body_closed;               ///< of each mesh: encloses a volume
+  double spacing = 0;                ///< m
+  Box domain;                        ///< bounding box of the tank's walls, m (2-D: y = 0)
+  std::vector<TriangleMesh> meshes;  ///< 0 the tank, 1 + i body i; in 3-D and as given in 2-D
+  std::vector<WallElement> walls;    ///< in a fixed order, the same at every start
+  std::vector<WallElement> lid;      ///< temporary, closes the fluid's free surface while it is packed
+  std::vector<Vector3d> particles;   ///< centres, m
+  std::vector<double> volumes;       ///< of each particle, m³ (2-D: m²)
+  std::vector<double> levels;        ///< z of the free surface over each particle, as filled, m
+  std::vector<bool> body_closed;     ///< of each mesh: encloses a volume
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
-/// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor under it, where
-/// elements that the box covers partly are clipped at its sides.
-/// Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, and for a probe inside a body or outside the tank.
+/// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor
+/// under it, where elements that the box covers partly are clipped at its sides. Throws Error for every mesh fault, for fluid outside the
+/// tank or leaking from it, for an empty fill, and for a probe inside a body or outside the tank.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve);
 
 }  // namespace wavetank

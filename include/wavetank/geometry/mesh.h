@@ -28,20 +28,21 @@ struct TriangleMesh {
 /// Turns a URI of a scheme that geometry does not know (package://) into a path; throws Error if it cannot.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
-/// Reads every submesh of the file with its node transforms, scales, rotates and translates it, merges equal vertices, drops exact duplicates.
-/// "Equal" is within 1e-6 of the mesh's size, the resolution of float32 files. A Collada file's unit is applied, its up-axis is not (as in rviz): turn a
-/// y-up file by rotation (π/2, 0, 0).
-/// Throws Error for a missing, unreadable, corrupt or empty file, non-finite vertices, or a file without triangles.
+/// Reads every submesh of the file with its node transforms, scales, rotates and translates it, merges equal vertices, drops exact
+/// duplicates. "Equal" is within 1e-6 of the mesh's size, the resolution of float32 files. A Collada file's unit is applied, its up-axis is
+/// not (as in rviz): turn a y-up file by rotation (π/2, 0, 0). Throws Error for a missing, unreadable, corrupt or empty file, non-finite
+/// vertices, or a file without triangles.
 TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
 
 /// The twelve triangles of a box, wound outwards; without those of the top if it is open.
 TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name);
 
-/// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed), no edge shared by more than two triangles (non-manifold).
+/// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed), no edge shared by more than two triangles
+/// (non-manifold).
 void check_surface(TriangleMesh& mesh);
 
-/// Further checks for a body, which must enclose its volume: every edge shared by exactly two triangles, consistently wound (turned over where not),
-/// volume > 0 after orienting outwards, no self-inverted part. Throws Error naming the mesh and where (an edge's coordinates).
+/// Further checks for a body, which must enclose its volume: every edge shared by exactly two triangles, consistently wound (turned over
+/// where not), volume > 0 after orienting outwards, no self-inverted part. Throws Error naming the mesh and where (an edge's coordinates).
 void check_closed(TriangleMesh& mesh);
 
 /// Whether a point lies inside a closed mesh (generalised winding number > 1/2: robust at edges and vertices).

@@ -20,9 +20,9 @@ struct Box {
 /// A mesh file as a user names it: package://, file://, an absolute path, or a path relative to the case file.
 struct MeshSource {
   std::string uri;
-  double scale = 1.0;                        ///< metres per unit of the file
-  Vector3d translation = Vector3d::Zero();   ///< m, applied last
-  Vector3d rotation = Vector3d::Zero();      ///< rad, roll-pitch-yaw about fixed axes, applied after the scale
+  double scale = 1.0;                       ///< metres per unit of the file
+  Vector3d translation = Vector3d::Zero();  ///< m, applied last
+  Vector3d rotation = Vector3d::Zero();     ///< rad, roll-pitch-yaw about fixed axes, applied after the scale
 };
 
 /// Water filled in a closed region from a point inside it up to a level, bounded by the walls.
@@ -34,12 +34,12 @@ struct FloodFill {
 using FillRegion = std::variant<Box, FloodFill>;
 
 struct FluidCase {
-  double density = 1000.0;                ///< kg/m³
-  double viscosity = 1.0e-3;              ///< Pa·s, dynamic
-  std::optional<double> sound_speed;      ///< m/s; none = automatic: 10 × the greatest expected speed
-  std::optional<double> spacing;          ///< m; exactly one of spacing and particles is given
-  std::optional<std::size_t> particles;   ///< approximate number of fluid particles
-  std::vector<FillRegion> fill;           ///< at least one
+  double density = 1000.0;               ///< kg/m³
+  double viscosity = 1.0e-3;             ///< Pa·s, dynamic
+  std::optional<double> sound_speed;     ///< m/s; none = automatic: 10 × the greatest expected speed
+  std::optional<double> spacing;         ///< m; exactly one of spacing and particles is given
+  std::optional<std::size_t> particles;  ///< approximate number of fluid particles
+  std::vector<FillRegion> fill;          ///< at least one
 };
 
 /// A parametric rectangular tank.
@@ -51,7 +51,8 @@ struct BoxTank {
 
 struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
-  bool splash_guard = true;  ///< spray above the rim is kept over the tank, as by smooth walls on its bounding box; else it is lost and the run stops
+  bool splash_guard =
+      true;  ///< spray above the rim is kept over the tank, as by smooth walls on its bounding box; else it is lost and the run stops
 };
 
 enum class Motion { fixed };
@@ -118,36 +119,36 @@ struct WaveGaugeCase {
 struct InstrumentsCase {
   std::vector<PressureProbeCase> pressure_probes;
   std::vector<WaveGaugeCase> wave_gauges;
-  double rate = 1000.0;                ///< Hz of simulated time, of every instrument that has no rate of its own
-  std::optional<double> gauge_rate;    ///< Hz
-  std::optional<double> wrench_rate;   ///< Hz
-  std::optional<double> energy_rate;   ///< Hz
+  double rate = 1000.0;               ///< Hz of simulated time, of every instrument that has no rate of its own
+  std::optional<double> gauge_rate;   ///< Hz
+  std::optional<double> wrench_rate;  ///< Hz
+  std::optional<double> energy_rate;  ///< Hz
 };
 
 /// How the node publishes; the solver does not know of it.
 struct PublishingCase {
-  double cloud_rate = 20.0;            ///< Hz of wall time, of clouds while someone listens
-  double cloud_bag_rate = 50.0;        ///< Hz of simulated time, of clouds in a bag written by wavetank_run --clouds
-  int max_points = 50000;              ///< of a cloud; more are decimated
-  double reference_pressure = 0.0;     ///< Pa, added to gauge pressure in sensor_msgs/FluidPressure
-  std::string world_frame = "tank";    ///< tf frame of the case's coordinates
-  bool publish_clock = false;          ///< publish /clock from the simulated time
-  double real_time_factor = 0.0;       ///< upper limit of simulated over wall time; 0 = as fast as it goes
+  double cloud_rate = 20.0;          ///< Hz of wall time, of clouds while someone listens
+  double cloud_bag_rate = 50.0;      ///< Hz of simulated time, of clouds in a bag written by wavetank_run --clouds
+  int max_points = 50000;            ///< of a cloud; more are decimated
+  double reference_pressure = 0.0;   ///< Pa, added to gauge pressure in sensor_msgs/FluidPressure
+  std::string world_frame = "tank";  ///< tf frame of the case's coordinates
+  bool publish_clock = false;        ///< publish /clock from the simulated time
+  double real_time_factor = 0.0;     ///< upper limit of simulated over wall time; 0 = as fast as it goes
 };
 
 struct Case {
   std::string title;
-  int dimensions = 3;                        ///< 2 or 3
-  Vector3d gravity{0.0, 0.0, -9.81};         ///< m/s²
-  double duration = 0.0;                     ///< s of simulated time; > 0
-  std::string device = "auto";               ///< auto, cpu, gpu, a part of a device's name, or platform:device
+  int dimensions = 3;                 ///< 2 or 3
+  Vector3d gravity{0.0, 0.0, -9.81};  ///< m/s²
+  double duration = 0.0;              ///< s of simulated time; > 0
+  std::string device = "auto";        ///< auto, cpu, gpu, a part of a device's name, or platform:device
   FluidCase fluid;
   TankCase tank;
   std::vector<BodyCase> bodies;
   NumericsCase numerics;
   InstrumentsCase instruments;
   PublishingCase publishing;
-  std::string directory;                     ///< of the case file, that relative mesh paths refer to; empty when it came from parameters
+  std::string directory;  ///< of the case file, that relative mesh paths refer to; empty when it came from parameters
 };
 
 }  // namespace wavetank

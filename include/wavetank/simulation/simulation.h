@@ -18,21 +18,21 @@ namespace wavetank {
 struct ParticleCloud {
   double time = 0;  ///< s
   std::vector<std::uint32_t> id;
-  std::vector<Eigen::Vector3f> position;   ///< m, in the case's coordinates
-  std::vector<Eigen::Vector3f> velocity;   ///< m/s
-  std::vector<float> pressure;             ///< Pa, gauge
-  std::vector<float> density;              ///< kg/m³
-  std::vector<float> shepard;              ///< γ, 0…1
-  std::vector<std::uint8_t> surface;       ///< 1 on the free surface
+  std::vector<Eigen::Vector3f> position;  ///< m, in the case's coordinates
+  std::vector<Eigen::Vector3f> velocity;  ///< m/s
+  std::vector<float> pressure;            ///< Pa, gauge
+  std::vector<float> density;             ///< kg/m³
+  std::vector<float> shepard;             ///< γ, 0…1
+  std::vector<std::uint8_t> surface;      ///< 1 on the free surface
 };
 
 struct SolverState {
-  double time = 0;         ///< s
+  double time = 0;  ///< s
   std::uint64_t step = 0;
-  double time_step = 0;    ///< s, of the next step
+  double time_step = 0;  ///< s, of the next step
   std::size_t particles = 0;
-  double greatest_speed = 0;        ///< m/s
-  std::uint64_t guard_hits = 0;     ///< since the start: times a particle was kept from crossing a wall
+  double greatest_speed = 0;          ///< m/s
+  std::uint64_t guard_hits = 0;       ///< since the start: times a particle was kept from crossing a wall
   std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was bounded to its range
 };
 
@@ -49,7 +49,7 @@ struct KernelTime {
 };
 
 struct SimulationOptions {
-  ResourceResolver resolve;                                  ///< of package:// URIs; may be empty
+  ResourceResolver resolve;  ///< of package:// URIs; may be empty
   /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
   std::function<void(const std::string& what, double fraction)> progress;
   bool time_kernels = false;
@@ -78,12 +78,12 @@ class Simulation {
 
   SolverState state() const;
   EnergySample energies() const;
-  ParticleCloud particles() const;          ///< all
-  ParticleCloud free_surface() const;       ///< those on the free surface
-  const Case& scene() const;                ///< the case, with its automatic values settled (sound speed, spacing, support)
+  ParticleCloud particles() const;     ///< all
+  ParticleCloud free_surface() const;  ///< those on the free surface
+  const Case& scene() const;           ///< the case, with its automatic values settled (sound speed, spacing, support)
   const Layout& layout() const;
-  std::string device_description() const;   ///< device, platform, driver, in one line
-  std::string summary() const;              ///< several lines: spacing, h, c₀, bounds on Δt, particles, elements, memory, device
+  std::string device_description() const;  ///< device, platform, driver, in one line
+  std::string summary() const;             ///< several lines: spacing, h, c₀, bounds on Δt, particles, elements, memory, device
   std::vector<KernelTime> kernel_times() const;
 
  private:
@@ -96,9 +96,9 @@ struct Estimate {
   std::size_t particles = 0;
   std::size_t wall_elements = 0;
   std::size_t lid_elements = 0;
-  double device_memory = 0;   ///< bytes
-  double time_step = 0;       ///< s, the acoustic bound at rest
-  double wall_seconds = 0;    ///< of the whole run, from a short measurement on the case's device
+  double device_memory = 0;  ///< bytes
+  double time_step = 0;      ///< s, the acoustic bound at rest
+  double wall_seconds = 0;   ///< of the whole run, from a short measurement on the case's device
 };
 Estimate estimate(const Case& checked, const SimulationOptions& options = {});
 

@@ -17,8 +17,8 @@ struct Discretisation {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the device's coordinates, m: kernels never see large ones
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();   ///< the watchdog's box, m
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
-  double rim = 0;                                    ///< z of the tank's highest point, m
-  bool splash_guard = true;                          ///< above the rim, particles are kept over the tank's bounding box
+  double rim = 0;            ///< z of the tank's highest point, m
+  bool splash_guard = true;  ///< above the rim, particles are kept over the tank's bounding box
   int cells[3] = {0, 0, 0};  ///< of the neighbour grid, border included (2-D: y 1)
   double acoustic_time = 0;  ///< bounds on Δt at rest, s
   double viscous_time = 0;
