@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <vector>
 
 #include "device_state.h"
 #include "driver_environment.h"
@@ -35,17 +36,17 @@ std::string trimmed(const std::string& text) {
 std::string device_text(cl_device_id id, cl_device_info what) {
   std::size_t size = 0;
   if (clGetDeviceInfo(id, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
-  std::string text(size, '\0');
-  if (clGetDeviceInfo(id, what, size, &text[0], nullptr) != CL_SUCCESS) return "";
-  return trimmed(text.c_str());
+  std::vector<char> text(size);  // ends in a NUL
+  if (clGetDeviceInfo(id, what, size, text.data(), nullptr) != CL_SUCCESS) return "";
+  return trimmed(text.data());
 }
 
 std::string platform_text(cl_platform_id id, cl_platform_info what) {
   std::size_t size = 0;
   if (clGetPlatformInfo(id, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
-  std::string text(size, '\0');
-  if (clGetPlatformInfo(id, what, size, &text[0], nullptr) != CL_SUCCESS) return "";
-  return trimmed(text.c_str());
+  std::vector<char> text(size);  // ends in a NUL
+  if (clGetPlatformInfo(id, what, size, text.data(), nullptr) != CL_SUCCESS) return "";
+  return trimmed(text.data());
 }
 
 template <class T>

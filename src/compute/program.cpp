@@ -1,6 +1,7 @@
 #include "wavetank/compute/program.h"
 
 #include <cstdlib>
+#include <vector>
 
 #include "program_cache.h"
 #include "program_state.h"
@@ -28,9 +29,9 @@ std::string cache_directory_for(const DeviceInfo& device) {
 std::string build_log(cl_program program, cl_device_id device) {
   std::size_t size = 0;
   if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
-  std::string log(size, '\0');
-  if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, &log[0], nullptr) != CL_SUCCESS) return "";
-  return log.c_str();
+  std::vector<char> log(size);  // ends in a NUL
+  if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr) != CL_SUCCESS) return "";
+  return log.data();
 }
 
 std::string kernel_names(cl_program program) {

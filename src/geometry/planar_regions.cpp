@@ -50,6 +50,7 @@ class Grouping {
       if (region_[seed] < 0) members.push_back(grow(seed, static_cast<int>(members.size())));
     }
     std::vector<PlanarRegion> result;
+    result.reserve(members.size());
     for (const std::vector<int>& triangles : members) result.push_back(make(triangles));
     return result;
   }

@@ -89,9 +89,9 @@ void TriangleGrid::visit_triangle(const Prepared& t, Visit visit) const {
   const double edge_reach[3] = {half * t.edge_normal[0].lpNorm<1>(), half * t.edge_normal[1].lpNorm<1>(),
                                 half * t.edge_normal[2].lpNorm<1>()};
   visit_cells(t.bounds.min, t.bounds.max, [&](std::size_t cell) {
-    const Vector3d index(static_cast<double>(cell % count_[0]), static_cast<double>(cell / count_[0] % count_[1]),
-                         static_cast<double>(cell / count_[0] / count_[1]));
-    const Vector3d centre = origin_ + cell_ * (index.array() + 0.5).matrix();
+    const std::size_t index[3] = {cell % count_[0], cell / count_[0] % count_[1], cell / count_[0] / count_[1]};
+    const Vector3d place(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2]));
+    const Vector3d centre = origin_ + cell_ * (place.array() + 0.5).matrix();
     if (std::abs(t.normal.dot(centre) - t.offset) > reach) return;
     for (int k = 0; k < 3; ++k) {
       if (t.edge_normal[k].dot(centre) - t.edge_offset[k] > edge_reach[k]) return;

@@ -218,7 +218,7 @@ void fit_rectangle(WallElement& wall, const Polygon& corners) {
   }
   wall.elongation = extent[0] / extent[1];
   const double half[2] = {0.5 * std::sqrt(wall.area * wall.elongation), 0.5 * std::sqrt(wall.area / wall.elongation)};
-  wall.gap = std::max({reach[0] - half[0], reach[1] - half[1], 0.0});
+  for (int k = 0; k < 2; ++k) wall.gap[k] = std::max(reach[k] - half[k], 0.0);
 }
 
 }  // namespace

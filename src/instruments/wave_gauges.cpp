@@ -69,8 +69,9 @@ WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& so
     line.begin = points.size();
     const double y = scene.dimensions == 2 ? 0.0 : gauge.position.y();
     line.floor = floor_height(layout, gauge.position.x(), y);
-    for (double z = line.floor; z <= layout.domain.max.z(); z += interval_) {
-      points.emplace_back(gauge.position.x(), y, z);
+    const int count = static_cast<int>(std::floor((layout.domain.max.z() - line.floor) / interval_)) + 1;
+    for (int k = 0; k < count; ++k) {
+      points.emplace_back(gauge.position.x(), y, line.floor + k * interval_);
       open_.push_back(!inside_body(scene, layout, points.back()));
     }
     line.end = points.size();
@@ -85,13 +86,19 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
   const std::vector<PointValue> values = solver.evaluate(*points_);
   // how much of the kernel the fluid fills, the walls' share apart: 1 in the fluid, 1/2 on its surface, 0 in the air
   const auto filling = [&](std::size_t k) {
-    if (!open_[k] || values[k].shepard < 0.1) return 0.0;
+    if (values[k].shepard < 0.1) return 0.0;
     return std::min(values[k].filling / std::min(values[k].shepard, 1.0), 1.0);
   };
   for (const Line& line : lines_) {
-    double water = 0;
-    for (std::size_t k = line.begin; k + 1 < line.end; ++k) water += 0.5 * interval_ * (filling(k) + filling(k + 1));
-    levels.push_back(line.floor + water);
+    double column = 0, above = 0, water_above = 0;
+    for (std::size_t k = line.end; k-- > line.begin;) {
+      // a body counts as water where water stands on it
+      if (open_[k]) water_above = filling(k);
+      const double here = open_[k] ? water_above : water_above > 0.5 ? 1.0 : 0.0;
+      if (k + 1 < line.end) column += 0.5 * interval_ * (here + above);
+      above = here;
+    }
+    levels.push_back(line.floor + column);
   }
   return levels;
 }

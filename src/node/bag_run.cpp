@@ -107,7 +107,6 @@ void BagRun::step_to_the_end() {
 void BagRun::write_samples() {
   const Samples samples = simulation_->take_samples();
   last_ = simulation_->state();
-  samples_ += samples.pressures.size();
   if (!samples.energies.empty()) energies_ = samples.energies.back();
   seconds_ = elapsed();
   if (!bag_) return;

@@ -35,6 +35,7 @@ BagWriter::BagWriter(const std::string& path, std::string topic_prefix)
     throw Error("cannot write bag '" + path_ + "': there is no folder '" + folder_of(path_).string() + "'");
   if (disk_is_full(path_)) throw Error("cannot write bag '" + path_ + "': the disk is full");
   bag_ = std::make_unique<rosbag::Bag>();
+  errno = 0;
   try {
     bag_->open(active_path_, rosbag::bagmode::Write);
   } catch (const std::exception&) {

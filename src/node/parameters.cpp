@@ -117,8 +117,9 @@ class ParameterReader {
 
 /// Every leaf (lists are leaves) of the parameters as a key of the case.
 void flatten(XmlRpcValue& group, const std::string& path, std::vector<Override>& overrides) {
+  const std::string prefix = path.empty() ? "" : path + "/";
   for (auto& [name, value] : group) {
-    const std::string key = path.empty() ? name : path + "/" + name;
+    const std::string key = prefix + name;
     if (value.getType() == XmlRpcValue::TypeStruct)
       flatten(value, key, overrides);
     else
@@ -137,7 +138,7 @@ std::string yaml_of(const XmlRpcValue& value) {
 }
 
 NodeSetup read_setup(const ros::NodeHandle& private_handle) {
-  const std::string source = private_handle.getNamespace();
+  const std::string& source = private_handle.getNamespace();
   XmlRpcValue parameters;
   parameters.begin();
   private_handle.getParam("", parameters);
@@ -153,6 +154,7 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   reader.read("exit_at_end", setup.parameters.exit_at_end);
   reader.read("wait_for_subscribers", setup.parameters.wait_for_subscribers);
   take(parameters, "diagnostic_period");  // diagnostic_updater's own
+  take(parameters, clock_reached);        // the node's own note
 
   if (!setup.parameters.case_file.empty()) {
     std::vector<Override> overrides;

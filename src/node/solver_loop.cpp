@@ -29,14 +29,12 @@ SolverLoop::SolverLoop(Case checked, SimulationOptions options, LoopSettings set
   thread_ = std::thread([this] { run(); });
 }
 
-SolverLoop::~SolverLoop() {
-  stop();
-  thread_.join();
-}
+SolverLoop::~SolverLoop() { stop(); }
 
 void SolverLoop::stop() {
   stopping_ = true;
   wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
 }
 
 LoopStatus SolverLoop::status() const {
@@ -261,7 +259,7 @@ Reply SolverLoop::reset() {
   });
 }
 
-Reply SolverLoop::save(std::function<std::string(const SolverState&)> path) {
+Reply SolverLoop::save(const std::function<std::string(const SolverState&)>& path) {
   return ask([path](Simulation& simulation) -> Reply {
     const std::string file = path(simulation.state());
     simulation.save(file);

@@ -61,7 +61,13 @@ TankNode::~TankNode() {
   loop_.reset();
 }
 
-int TankNode::exit_code() const { return loop_->status().phase == LoopPhase::failed ? 3 : 0; }
+int TankNode::finish() {
+  timer_.stop();
+  loop_->stop();
+  if (loop_->status().phase == LoopPhase::failed) return 3;
+  if (case_.publishing.publish_clock) private_.deleteParam(clock_reached);
+  return 0;
+}
 
 void TankNode::advertise_topics() {
   const auto advertise = [this](const std::string& topic, auto message) {
@@ -81,11 +87,12 @@ void TankNode::advertise_topics() {
     ros_clock_ = handle_.advertise<rosgraph_msgs::Clock>("/clock", 10);
     if (!ros::param::param("/use_sim_time", false))
       log(LogLevel::warning, "this node publishes /clock, but the parameter /use_sim_time is not true: others will not follow it");
+    follow_earlier_clock();
   }
 }
 
 void TankNode::advertise_services() {
-  const auto trigger = [this](const std::string& name, std::function<Reply()> action) {
+  const auto trigger = [this](const std::string& name, const std::function<Reply()>& action) {
     services_.push_back(private_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
         name, [action](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
           const Reply reply = action();
@@ -190,6 +197,21 @@ void TankNode::publish_clock(double time) {
   rosgraph_msgs::Clock message;
   message.clock = nonzero(clock_.at(time));
   ros_clock_.publish(message);
+}
+
+/// A node that is started again (respawn) after it failed must not turn the clock back for those that followed it.
+void TankNode::follow_earlier_clock() {
+  double reached = 0;
+  if (!private_.getParam(clock_reached, reached) || !(reached > 0)) return;
+  clock_.restart_after(reached);
+  log(LogLevel::info, "an earlier run's /clock goes on: the simulation starts at " + std::to_string(clock_.at(0).sec) + " s of it");
+}
+
+void TankNode::note_clock(const LoopStatus& status) {
+  if (!case_.publishing.publish_clock) return;
+  // until the next note comes the clock may go on as fast as it just did, and a little faster
+  const double next_second = 2.0 * real_time_factor_ + 1.0;
+  private_.setParam(clock_reached, clock_.at(status.solver.time).toSec() + next_second);
 }
 
 bool TankNode::everything_is_heard() {

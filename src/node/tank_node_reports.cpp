@@ -38,6 +38,7 @@ void TankNode::every_second() {
   const LoopStatus status = loop_->status();
   measure_rates(status);
   status_.publish(make_status(status));
+  note_clock(status);
   if (!status.device.empty()) diagnostics_.setHardwareID(status.device);
   // Not update(): that paces itself by ROS time, which stands still while paused.
   diagnostics_.force_update();

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     spinner.start();
     while (ros::ok() && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
     spinner.stop();
-    return node.exit_code();
+    return node.finish();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -80,8 +80,8 @@ Section<TankCase> tank_section() {
   section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
   add_mesh_keys(section, &TankCase::shape);
   section.key("splash_guard", &TankCase::splash_guard, flag(), "",
-              "Keeps spray above the rim over the tank, as by smooth walls on its bounding box; without it, a particle that flies out "
-              "stops the run.");
+              "Keeps spray above the tank's highest point over its bounding box, as by smooth walls; without it, a particle that flies "
+              "out stops the run.");
   return section;
 }
 
@@ -108,14 +108,14 @@ Section<WallCase> wall_section() {
   section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
               "The fluid's velocity along a wall.");
   section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
-              "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off.");
+              "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off, but not the splash guard.");
   return section;
 }
 
 Section<NumericsCase> numerics_section() {
   Section<PackingCase> packing;
   packing.key("iterations", &PackingCase::iterations, whole_number(between(0, 100000)), "",
-              "At most so many steps of packing the particles before the start; 0 starts from the lattice.");
+              "Steps of packing the particles before the start; 0 starts from the lattice.");
   Section<NumericsCase> section;
   section.key("scheme", &NumericsCase::scheme, choice<Scheme>({{"delta_sph", Scheme::delta_sph}}), "", "The SPH scheme.");
   section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",

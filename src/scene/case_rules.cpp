@@ -36,6 +36,7 @@ void check_case(const Case& read, const Setting& root) {
   if (read.dimensions == 2 && read.gravity.y() != 0.0) {
     refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "within the x–z plane of a 2-D case, [x, 0, z] or [x, z]");
   }
+  if (read.gravity.z() > 0.0) refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "downwards or zero along z: z at most 0");
   if (read.gravity.isZero(0.0) && !read.fluid.sound_speed) {
     throw Error(nearest_setting(root, "gravity").place.describe() +
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");

@@ -76,6 +76,7 @@ Setting number_setting(double number) { return Setting::scalar(number_text(numbe
 
 Setting vector_setting(const Vector3d& vector, int count = 3) {
   std::vector<Setting> numbers;
+  numbers.reserve(count);
   for (int axis = 0; axis < count; ++axis) numbers.push_back(number_setting(vector[axis]));
   return Setting::list(std::move(numbers));
 }

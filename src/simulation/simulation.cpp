@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "snapshot.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/compute/device.h"
+#include "wavetank/geometry/thin_walls.h"
 #include "wavetank/instruments/recorder.h"
 #include "wavetank/scene/case_reader.h"
 #include "wavetank/sph/solver.h"
@@ -38,13 +40,38 @@ std::vector<Vector3d> torque_centres(const Case& scene, const Layout& layout) {
   return centres;
 }
 
-/// The case as far as it decides the flow and the samples: what a snapshot must agree on.
-std::string flow_of(Case scene) {
+/// Tells one geometry from another (FNV-1a): a case names its meshes, but does not hold them.
+std::uint64_t fingerprint(const Layout& layout) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&hash](const double* values, std::size_t count) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
+    for (std::size_t k = 0; k < count * sizeof(double); ++k) hash = (hash ^ bytes[k]) * 1099511628211ULL;
+  };
+  for (const Vector3d& particle : layout.particles) add(particle.data(), 3);
+  for (const WallElement& wall : layout.walls) {
+    add(wall.centre.data(), 3);
+    add(wall.normal.data(), 3);
+    add(&wall.area, 1);
+  }
+  return hash;
+}
+
+/// The case and its geometry as far as they decide the flow and the samples: what a snapshot must agree on.
+std::string flow_of(Case scene, const Layout& layout) {
   scene.title.clear();
   scene.duration = 1;
   scene.device = "auto";
   scene.publishing = PublishingCase{};
-  return write_case(scene);
+  return write_case(scene) + "geometry " + std::to_string(fingerprint(layout)) + "\n";
+}
+
+void warn_of_thin_walls(const Case& scene, const Layout& layout, const Discretisation& discretisation) {
+  const std::optional<ThinWall> wall = thinnest_wall(layout, discretisation.support);
+  if (!wall) return;
+  const std::string whose = wall->owner == 0 ? "the tank" : "body " + scene.bodies[wall->owner - 1].name;
+  log(LogLevel::warning, whose + " is only " + number(wall->thickness) + " m thick at " + point(wall->place) +
+                             " m, with fluid possible on both sides, less than the kernel's support of " + number(discretisation.support) +
+                             " m: the water on one side feels that on the other. Make it thicker or fluid/spacing smaller.");
 }
 
 }  // namespace
@@ -57,7 +84,9 @@ struct Simulation::Parts {
         discretisation(discretise(scene, layout)),
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
-        recorder(scene, layout, *solver) {}
+        recorder(scene, layout, *solver) {
+    warn_of_thin_walls(scene, layout, discretisation);
+  }
 
   Layout laid_out(const Case& checked) const {
     progress("laying out", 0.0);
@@ -160,7 +189,7 @@ void Simulation::save(const std::string& path) const {
   Snapshot snapshot;
   snapshot.version = version();
   snapshot.device = device_description();
-  snapshot.scene = flow_of(parts.scene);
+  snapshot.scene = flow_of(parts.scene, parts.layout);
   snapshot.time = parts.time;
   snapshot.time_step = parts.time_step;
   snapshot.step = parts.step;
@@ -173,9 +202,9 @@ void Simulation::save(const std::string& path) const {
 void Simulation::restore(const std::string& path) {
   Parts& parts = *parts_;
   const Snapshot snapshot = read_snapshot(path);
-  if (snapshot.scene != flow_of(parts.scene))
+  if (snapshot.scene != flow_of(parts.scene, parts.layout))
     throw Error("the snapshot " + path +
-                " belongs to another case: everything but title, duration, device and publishing must be the same.");
+                " belongs to another case: everything but title, duration, device and publishing must be the same, meshes too.");
   try {
     parts.solver->restore(snapshot.fluid);
   } catch (const Error& error) {
@@ -281,6 +310,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const Discretisation discretisation = discretise(scene, layout);
   const compute::Device device(compute::choose_device(scene.device));
   const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
+  warn_of_thin_walls(scene, layout, discretisation);
   solver->start();
   solver->advance();  // the first launch of a kernel may still compile it
   constexpr int measured_steps = 3;

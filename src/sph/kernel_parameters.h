@@ -32,7 +32,8 @@ enum Wall {
   area,
   half_along,
   half_across,
-  gap,
+  gap_along,
+  gap_across,
   wall_count
 };
 constexpr int load_count = 4;

@@ -46,7 +46,8 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
     set(field::area, element.area);
     set(field::half_along, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
     set(field::half_across, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
-    set(field::gap, element.gap);
+    set(field::gap_along, element.gap[0]);
+    set(field::gap_across, element.gap[1]);
   }
   fields = compute::Buffer<Real>(device, values);
   starts = compute::Buffer<int>(device, begin);

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "geometry_fixture.h"
+#include "wavetank/geometry/thin_walls.h"
 
 namespace wavetank {
 namespace {
@@ -204,9 +205,10 @@ TEST_F(LayoutWalls, ElementsBesideABoxAreRectanglesThatEndThere) {
   add_body(checked, box_mesh(box, false, ""));
   int corners = 0;
   for (const WallElement& wall : lay_out(checked).walls) {
-    if (wall.gap > 1e-6) {  // a cell that a corner of the box takes a bite from
+    const double gap = std::max(wall.gap[0], wall.gap[1]);
+    if (gap > 1e-6) {  // a cell that a corner of the box takes a bite from
       ++corners;
-      EXPECT_LT(wall.gap, 0.025);
+      EXPECT_LT(gap, 0.025);
       continue;
     }
     if (wall.owner != 0 || wall.centre.z() > 1e-9) continue;
@@ -241,6 +243,27 @@ TEST_F(LayoutWalls, ABaffleGetsAnElementOnEachSide) {
   }
   EXPECT_EQ(left, 36);
   EXPECT_EQ(right, 36);
+}
+
+TEST_F(LayoutWalls, TheThinnestPlaceWithFluidOnBothSidesIsFound) {
+  Case checked = box_case(Vector3d(1, 1, 0.8), 0.5, 0.05);
+  EXPECT_FALSE(thinnest_wall(lay_out(checked), 0.15));
+  checked.bodies = {{"thick", Box{Vector3d(0.1, 0.3, 0), Vector3d(0.3, 0.7, 0.3)}, Motion::fixed},
+                    {"thin", Box{Vector3d(0.6, 0.2, 0), Vector3d(0.66, 0.8, 0.4)}, Motion::fixed}};
+  const std::optional<ThinWall> thin = thinnest_wall(lay_out(checked), 0.15);
+  ASSERT_TRUE(thin);
+  EXPECT_EQ(thin->owner, 2);
+  EXPECT_NEAR(thin->thickness, 0.06, 1e-9);
+  EXPECT_FALSE(thinnest_wall(lay_out(checked), 0.05));
+
+  TriangleMesh tank = box_mesh({Vector3d::Zero(), Vector3d(1, 0.5, 0.5)}, true, "");
+  append(tank, plate(0.525, 0.1, 0.4, 0.1, 0.4));
+  Case with_baffle = mesh_case(tank, 0.05);
+  with_baffle.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1, 0.5, 0.45)}};
+  const std::optional<ThinWall> baffle = thinnest_wall(lay_out(with_baffle), 0.15);
+  ASSERT_TRUE(baffle);
+  EXPECT_EQ(baffle->owner, 0);
+  EXPECT_NEAR(baffle->thickness, 0, 1e-9);
 }
 
 TEST_F(LayoutWalls, OfAThickWalledTankOnlyTheInnerSkinStays) {

@@ -108,6 +108,25 @@ TEST(WaveGauge, ReadsTheLevelBesideABody) {
   expect_level(scene, {Vector3d(0.15, 0.15, 0), Vector3d(0.27, 0.15, 0)}, 0.24);
 }
 
+TEST(WaveGauge, ReadsTheLevelOverABody) {
+  Case scene = tank_2d();
+  scene.bodies.push_back({"box", Box{Vector3d(0.12, 0, 0.06), Vector3d(0.24, 0, 0.18)}, Motion::fixed});  // under water
+  scene.bodies.push_back({"step", Box{Vector3d(0.36, 0, 0), Vector3d(0.48, 0, 0.12)}, Motion::fixed});    // on the floor
+  expect_level(scene, {Vector3d(0.18, 0, 0), Vector3d(0.42, 0, 0)}, 0.3);
+}
+
+TEST(WaveGauge, ReadsTheFloorUnderABodyThatStandsInTheDry) {
+  Case scene = tank_2d();
+  std::get<Box>(scene.fluid.fill[0]).max.x() = 0.15;
+  scene.bodies.push_back({"box", Box{Vector3d(0.42, 0, 0), Vector3d(0.54, 0, 0.12)}, Motion::fixed});
+  scene.instruments.wave_gauges = {{"dry", Vector3d(0.48, 0, 0)}};
+  Tank tank(scene);
+  tank.pack_and_start(20);
+  Recorder recorder(tank.scene, tank.layout, *tank.solver);
+  recorder.start(*tank.solver);
+  EXPECT_EQ(recorder.take().levels[0].levels[0], 0.0);
+}
+
 TEST(WaveGauge, ReadsTheFloorWhereItIsDry) {
   Case scene = moved(tank_2d(), Vector3d(0, 0, 2));
   std::get<Box>(scene.fluid.fill[0]).max.x() = 0.15;

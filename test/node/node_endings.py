@@ -16,6 +16,7 @@ import roslib.packages
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from rosgraph_msgs.msg import Clock
 from wavetank.msg import ProbeArray, SolverStatus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -127,6 +128,26 @@ class NodeEndings(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertLess(time.time() - begin, 5.0)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_node_started_again_does_not_turn_the_clock_back(self):
+        clock = []
+        subscriber = rospy.Subscriber("/clock", Clock, lambda message: clock.append(message.clock.to_nsec()))
+        first = self.start("respawned", case_file=CASE, duration=1000.0, publish_clock=True, real_time_factor=1.0)
+        deadline = time.time() + 60
+        while not rospy.has_param("/respawned/clock_reached") or len(clock) < 100:
+            self.assertLess(time.time(), deadline, "the node published no /clock")
+            time.sleep(0.1)
+        first.kill()
+        first.wait()
+        before = len(clock)
+        again = subprocess.Popen([node_program(), "__name:=respawned"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.addCleanup(self.end, again)
+        rospy.wait_for_message("/respawned/probes", ProbeArray, 60.0)
+        while len(clock) < before + 20:
+            self.assertLess(time.time(), deadline + 60, "no /clock after the second start")
+            time.sleep(0.1)
+        subscriber.unregister()
+        self.assertEqual(clock, sorted(clock))
 
     def test_wrong_parameters_are_refused_with_their_name(self):
         for number, (parameters, word) in enumerate(

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 """wavetank_run as a user meets it: what it prints, writes, refuses, and how it ends."""
 
+import glob
 import os
+import resource
+import signal
 import subprocess
 import unittest
 
 import rosbag
 
 import program_runner
-from program_runner import ProgramTest, interrupt, read_line_with
+from program_runner import PACKAGE, ProgramTest, interrupt, read_line_with
 
 BODY = {"name": "step", "box": {"min": [0.16, -0.1, 0.0], "max": [0.24, 0.1, 0.08]}, "motion": "fixed"}
 
@@ -20,6 +23,28 @@ def stamps(path, topic):
 
 def milliseconds(count):
     return [i * 1000000 for i in range(count)]
+
+
+class DemoCases(ProgramTest):
+    def test_each_is_sound(self):
+        cases = sorted(glob.glob(os.path.join(PACKAGE, "config", "*.yaml")))
+        self.assertGreaterEqual(len(cases), 4)
+        for case in cases:
+            with self.subTest(os.path.basename(case)):
+                result = self.run_program("--check", case, "--set", "numerics/packing/iterations=0")
+                self.assert_runs(result)
+                self.assertEqual(result.stderr, "")
+
+    def test_gauges_of_the_tanks_at_rest_read_its_level(self):
+        for name, level, tolerance in [("still_tank_3d.yaml", 0.36, 0.01), ("hydrostatic_2d.yaml", 0.092, 0.002)]:
+            with self.subTest(name):
+                case = os.path.join(PACKAGE, "config", name)
+                self.assert_runs(self.run_program(case, "--bag", "rest.bag", "--duration", "0.01", "--set", "numerics/packing/iterations=30"))
+                with rosbag.Bag(self.path("rest.bag")) as bag:
+                    gauges = [message for _, message, _ in bag.read_messages(topics=["/wavetank/gauges"])][-1]
+                self.assertGreater(len(gauges.levels), 0)
+                for gauge, found in zip(gauges.names, gauges.levels):
+                    self.assertLess(abs(found - level), tolerance, gauge)
 
 
 class Information(ProgramTest):
@@ -199,7 +224,7 @@ class Snapshots(ProgramTest):
             self.assert_refused(self.run_program(case, "--restore", "cut.snapshot"), "cut.snapshot")
         self.assert_refused(self.run_program(case, "--restore", "case.yaml"), "case.yaml")
         self.assert_refused(self.run_program(case, "--restore", "none.snapshot"), "none.snapshot")
-        other = self.case("other.yaml", fluid__spacing=0.025)
+        other = self.case("other.yaml", fluid__density=990.0)
         self.assert_refused(self.run_program(other, "--restore", "a.snapshot"), "a.snapshot")
 
     def test_a_place_that_cannot_be_written_is_told_before_the_start(self):
@@ -278,6 +303,17 @@ class Refusals(ProgramTest):
         with open(self.path("broken.yaml"), "w") as file:
             file.write("title: [unfinished\nfluid: {")
         self.assert_refused(self.run_program("broken.yaml"), "broken.yaml")
+
+    def test_a_file_that_cannot_grow(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000000, 3000000))
+
+        case = self.case(duration=1000.0, instruments__rate=20000)
+        before = self.files()
+        result = self.run_program(case, "--bag", "out.bag", timeout=300, preexec_fn=limit)
+        self.assert_refused(result, "out.bag")
+        self.assertEqual(self.files(), before)
 
     def test_a_full_disk(self):
         disk = self.path("disk")

@@ -240,6 +240,11 @@ TEST(BrokenCases, GravityOutOfPlane) {
             "case.yaml:3: gravity is [0, 1, -9.81]; it must be within the x–z plane of a 2-D case, [x, 0, z] or [x, z] (m/s²)");
 }
 
+TEST(BrokenCases, GravityUpwards) {
+  EXPECT_EQ(error_of(replaced(sound, "[0, 0, -9.81]", "[0, 0, 9.81]")),
+            "case.yaml:3: gravity is [0, 0, 9.81]; it must be downwards or zero along z: z at most 0 (m/s²)");
+}
+
 TEST(BrokenCases, AsAWhole) {
   EXPECT_TRUE(contains(error_of(""), "case.yaml: the case is empty; it must be a map of keys: title, dimensions")) << error_of("");
   EXPECT_TRUE(contains(error_of("# nothing\n# at all\n"), "the case is empty"));

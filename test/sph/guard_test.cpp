@@ -134,6 +134,28 @@ TEST(Guard, ABlockOfFluidStaysInFrontOfWalls) {
   EXPECT_GT(shoot(weightless(size, obstacle), shots, 300).guard_hits, 0) << "the guard had nothing to do: the shots missed";
 }
 
+TEST(Guard, ParticlesStayInFrontOfTheFloorBesideABoxOffItsGrid) {
+  const Vector3d size(1, 1, 0.8);
+  const Box box{Vector3d(0.312, 0.287, 0), Vector3d(0.668, 0.701, 0.2)};
+  std::vector<Shot> shots;
+  // so near the strips of floor beside the box, whose elements are cut, that pressure has no time to stop them
+  for (const double along : {0.02, 0.26, 0.5, 0.74, 0.98}) {
+    const double x = box.min.x() + along * (box.max.x() - box.min.x()), y = box.min.y() + along * (box.max.y() - box.min.y());
+    for (const double away : {0.004, 0.013, 0.027}) {
+      for (const Vector3d& place : {Vector3d(x, box.min.y() - away, 0), Vector3d(x, box.max.y() + away, 0),
+                                    Vector3d(box.min.x() - away, y, 0), Vector3d(box.max.x() + away, y, 0)})
+        shots.push_back({place + Vector3d(0, 0, 0.004), place});
+    }
+  }
+  // the corners of the box's foot
+  for (const double cx : {box.min.x(), box.max.x()})
+    for (const double cy : {box.min.y(), box.max.y()}) {
+      const Vector3d place(cx + (cx < 0.5 ? -0.006 : 0.006), cy + (cy < 0.5 ? -0.006 : 0.006), 0);
+      shots.push_back({place + Vector3d(0, 0, 0.004), place});
+    }
+  EXPECT_GT(shoot(weightless(size, box), shots, 40).guard_hits, 0);
+}
+
 /// Lone particles thrown upwards and outwards from near the sides of an open tank; the number of steps until the watchdog speaks, or all.
 int throw_over_the_rim(bool splash_guard, double width, int steps) {
   Case scene = box_case(Vector3d(1, width, 0.5), 0.1, spacing);

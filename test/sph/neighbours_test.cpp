@@ -26,7 +26,7 @@ PointValue summed(const Tank& tank, const FluidState& fluid, const Vector3d& poi
     value.filling += weight;
     value.pressure += weight * (fluid.pressure[j] - local * tank.scene.gravity.dot(r));
   }
-  value.pressure = value.filling > 0.02 ? value.pressure / value.filling : 0;
+  value.pressure /= std::max(value.filling, 0.5);  // there are no walls, so γ is 1
   return value;
 }
 
@@ -70,9 +70,8 @@ void compare_with_all_pairs(int dimensions, Precision precision, double toleranc
   for (std::size_t k = 0; k < points.size(); ++k) {
     const PointValue expected = summed(tank, fluid, points[k]);
     filling_error = std::max(filling_error, std::abs(values[k].filling - expected.filling) / std::max(expected.filling, 0.1));
-    if (std::abs(expected.filling - 0.02) < 1e-4) continue;  // dry or not: rounding decides
     pressure_error = std::max(pressure_error, std::abs(values[k].pressure - expected.pressure) / 1e4);
-    wet += expected.filling > 0.02;
+    wet += expected.filling > 0.1;
   }
   std::printf("%d-D, %s, seed %u: greatest relative error of the filling %.1e, of the pressure %.1e\n", dimensions,
               precision == Precision::single ? "single" : "double", seed, filling_error, pressure_error);

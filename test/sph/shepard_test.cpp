@@ -23,17 +23,20 @@ constexpr Reference flat_3d[] = {{0.01, 0.50750}, {0.05, 0.53745}, {0.1, 0.57456
 constexpr Reference edge_3d[] = {{0.1, 0.32976}, {0.5, 0.68368}};
 constexpr Reference corner_3d[] = {{0.1, 0.18939}, {0.5, 0.56377}};
 
-/// Elements of a wall through the origin over tangential coordinates in [from_a, to_a] × [from_b, to_b] elements; 2-D: a alone.
-std::vector<WallElement> wall(const Vector3d& normal, const Vector3d& a, int from_a, int to_a, const Vector3d& b, int from_b, int to_b) {
+/// Elements of a wall through the origin over tangential coordinates in [from_a, to_a] × [from_b, to_b] elements; 2-D: a alone. Each is
+/// `narrow` times as wide along b as along a.
+std::vector<WallElement> wall(const Vector3d& normal, const Vector3d& a, int from_a, int to_a, const Vector3d& b, int from_b, int to_b,
+                              double narrow = 1) {
   std::vector<WallElement> elements;
   const bool flat = b.isZero();
   for (int i = from_a; i < to_a; ++i)
     for (int k = flat ? 0 : from_b; k < (flat ? 1 : to_b); ++k) {
       WallElement element;
-      element.centre = spacing * ((i + 0.5) * a + (k + 0.5) * b);
+      element.centre = spacing * ((i + 0.5) * a + narrow * (k + 0.5) * b);
       element.normal = normal;
       element.tangent = a;
-      element.area = flat ? spacing : spacing * spacing;
+      element.area = flat ? spacing : narrow * spacing * spacing;
+      element.elongation = 1 / narrow;
       elements.push_back(element);
     }
   return elements;
@@ -120,6 +123,16 @@ TEST_P(ShepardFactor, FlatWall) {
   compare("flat wall, 3-D", 3, GetParam(), flat_wall(3), Z, flat_offsets(3), {std::begin(flat_3d), std::end(flat_3d)});
 }
 
+TEST_P(ShepardFactor, FlatWallOfNarrowElements) {
+  for (const double narrow : {0.5, 0.2}) {
+    const int more = static_cast<int>(std::lround(reach / narrow));
+    compare("narrow elements, 3-D", 3, GetParam(), wall(-Z, X, -reach, reach, Y, -more, more, narrow), Z,
+            {0.5 * (X + Y), 0.5 * X, 0.31 * X + 0.17 * Y, 0.77 * X + 0.45 * Y}, {std::begin(flat_3d), std::end(flat_3d)});
+    compare("narrow elements, 3-D, turned", 3, GetParam(), wall(-Z, Y, -reach, reach, X, -more, more, narrow), Z,
+            {0.5 * (X + Y), 0.5 * X, 0.31 * X + 0.17 * Y, 0.77 * X + 0.45 * Y}, {std::begin(flat_3d), std::end(flat_3d)});
+  }
+}
+
 TEST_P(ShepardFactor, RightAngle) {
   std::vector<Reference> corner_2d;
   for (const double r : {0.05, 0.1, 0.25, 0.5, 1.0, 1.5}) corner_2d.push_back({r, quarter_plane(r)});
@@ -136,6 +149,16 @@ TEST_P(ShepardFactor, IsHalfOnTheWallAndContinuousAcrossIt) {
   for (const double r : {-1e-4, -3e-5, -1e-5, -1e-6, 0.0, 1e-6, 1e-5, 3e-5, 1e-4}) near.push_back({r, 0.5});
   compare("on the wall, 2-D", 2, GetParam(), flat_wall(2), Z, flat_offsets(2), near);
   compare("on the wall, 3-D", 3, GetParam(), flat_wall(3), Z, flat_offsets(3), near);
+}
+
+TEST_P(ShepardFactor, InEdgesAndCornersIsThatOfTheFluidBesideThem) {
+  compare("in a corner, 2-D", 2, GetParam(), wall(-Z, X, 0, reach, none, 0, 0) + wall(-X, Z, 0, reach, none, 0, 0), X + Z, {none},
+          {{0.0, 0.25}});
+  compare("in an edge, 3-D", 3, GetParam(), wall(-Z, X, 0, reach, Y, -reach, reach) + wall(-X, Z, 0, reach, Y, -reach, reach), X + Z,
+          {none, 0.5 * Y, 0.31 * Y}, {{0.0, 0.25}});
+  compare("in a cube's corner, 3-D", 3, GetParam(),
+          wall(-Z, X, 0, reach, Y, 0, reach) + wall(-X, Y, 0, reach, Z, 0, reach) + wall(-Y, Z, 0, reach, X, 0, reach), X + Y + Z, {none},
+          {{0.0, 0.125}});
 }
 
 TEST_P(ShepardFactor, FollowsTheDistanceWithoutSteps) {

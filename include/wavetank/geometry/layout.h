@@ -9,13 +9,13 @@ namespace wavetank {
 
 /// A piece of wall: a square in 3-D, a segment in 2-D, that stands for `area` of the wall about `centre`.
 struct WallElement {
-  Vector3d centre;        ///< m
-  Vector3d normal;        ///< unit, pointing out of the fluid
-  Vector3d tangent;       ///< unit, in the element's plane, along a side of the rectangle (2-D: along the segment, in the x–z plane)
-  double area = 0;        ///< m² in 3-D, m in 2-D
-  double elongation = 1;  ///< of the rectangle of this area that it is taken for: side along the tangent over the other (3-D)
-  double gap = 0;         ///< m, by which the wall that it stands for reaches beyond that rectangle; 0 where it is one
-  int owner = 0;          ///< 0 the tank, 1 + i body i
+  Vector3d centre;         ///< m
+  Vector3d normal;         ///< unit, pointing out of the fluid
+  Vector3d tangent;        ///< unit, in the element's plane, along a side of the rectangle (2-D: along the segment, in the x–z plane)
+  double area = 0;         ///< m² in 3-D, m in 2-D
+  double elongation = 1;   ///< of the rectangle of this area that it is taken for: side along the tangent over the other (3-D)
+  double gap[2] = {0, 0};  ///< m, by which the wall that it stands for reaches beyond that rectangle, along the tangent and across
+  int owner = 0;           ///< 0 the tank, 1 + i body i
 };
 
 /// A case's geometry, sampled at the particle spacing: what the solver starts from.

@@ -51,7 +51,6 @@ class BagRun {
   SolverState first_, last_;
   EnergySample energies_;
   double next_status_ = 0, next_cloud_ = 0;  ///< s of simulated time
-  std::size_t samples_ = 0;                  ///< of pressure, written
   Clock::time_point began_;
   double seconds_ = 0;  ///< of wall time, stepping
   std::string violation_;

@@ -20,6 +20,9 @@ struct NodeParameters {
   double wait_for_subscribers = 0.0;  ///< s of wall time that the first step may wait for a subscriber of every list of samples
 };
 
+/// Private parameter in which a node that publishes /clock notes how far that is, s, for whoever follows it under its name.
+inline const std::string clock_reached = "clock_reached";
+
 /// What a live node is made from.
 struct NodeSetup {
   Case scene;

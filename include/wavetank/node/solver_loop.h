@@ -52,11 +52,11 @@ struct LoopSettings {
 class SolverLoop {
  public:
   SolverLoop(Case checked, SimulationOptions options, LoopSettings settings, LoopHooks hooks);
-  /// Stops after the step in progress, abandons a start in progress.
   ~SolverLoop();
   SolverLoop(const SolverLoop&) = delete;
   SolverLoop& operator=(const SolverLoop&) = delete;
 
+  /// Stops after the step in progress, abandons a start in progress; returns when the hook `ended` has.
   void stop();
 
   /// Once it is answered, no step is in progress. During the start: the run will begin paused, or not.
@@ -64,7 +64,7 @@ class SolverLoop {
   Reply step();   ///< one step; only while paused and before the end
   Reply reset();  ///< back to time 0; paused stays paused
   /// Writes a snapshot to the path that is made from the state saved, and answers with it.
-  Reply save(std::function<std::string(const SolverState&)> path);
+  Reply save(const std::function<std::string(const SolverState&)>& path);
 
   LoopStatus status() const;
 

@@ -29,8 +29,8 @@ class TankNode {
 
   /// Whether the process should end: some seconds after a failure, or at the end of the duration if so asked.
   bool wants_to_exit() const { return wants_to_exit_; }
-  /// Of the process: 0, or 3 after a failure of the simulation.
-  int exit_code() const;
+  /// Stops the simulation and closes the bag; the exit code of the process: 0, or 3 after a failure of the simulation or of the bag.
+  int finish();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -44,6 +44,8 @@ class TankNode {
   template <class Message>
   void publish_sample(const std::string& topic, const Message& message);
   void publish_clock(double time);
+  void follow_earlier_clock();
+  void note_clock(const LoopStatus& status);
   void write_cloud(const Simulation& simulation, double time);
   bool everything_is_heard();
   std::string snapshot_path(const std::string& what) const;

@@ -33,7 +33,7 @@ struct SolverState {
   std::size_t particles = 0;
   double greatest_speed = 0;          ///< m/s
   std::uint64_t guard_hits = 0;       ///< since the start: times a particle was kept from crossing a wall
-  std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was bounded to its range
+  std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was below 0.05 or above 1.005
 };
 
 /// The watchdog's: a running simulation that may not go on. what() says which particle, where, when, in which step.
@@ -91,7 +91,7 @@ class Simulation {
   std::unique_ptr<Parts> parts_;
 };
 
-/// What `--check` reports: made from the layout alone, without running.
+/// What `--check` reports: from the layout and a few steps that are timed.
 struct Estimate {
   std::size_t particles = 0;
   std::size_t wall_elements = 0;

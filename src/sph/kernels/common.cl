@@ -54,8 +54,9 @@ typedef struct {
 #define WALL_AREA 9
 #define WALL_HALF_ALONG 10
 #define WALL_HALF_ACROSS 11
-#define WALL_GAP 12
-#define WALL_COUNT 13
+#define WALL_GAP_ALONG 12
+#define WALL_GAP_ACROSS 13
+#define WALL_COUNT 14
 
 // what the fluid does to a wall element
 #define LOAD_PRESSURE 0

@@ -1,4 +1,4 @@
-// Guard against penetration [G]: a particle nearer to a wall than the guard distance and approaching it loses its normal velocity relative to the wall;
+// Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity relative to the wall;
 // one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an open tank, where there
 // is no wall, on the sides of the tank's bounding box.
 #include "wall_element.cl"
@@ -17,7 +17,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
   const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx - a->x, ry - a->y, rz - a->z);
   // behind a wall as far as half a spacing on the element itself, by no more than the guard distance beside it: there a body's own side may lie
   const real deepest = view.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
-  if (beside_wall(&view) > view.gap + BORDER * p->spacing || view.distance > p->guard_distance || view.distance < deepest) return;
+  if (beside_whole_wall(&view) > BORDER * p->spacing || view.distance > p->guard_distance || view.distance < deepest) return;
   const real approach = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
   if (approach > R(0.0)) {
     a->u -= approach * view.normal_x;
@@ -65,6 +65,7 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
     hits[i] |= y.hit ? 1 : 0;
 #endif
   }
+  if (p->guard_distance == R(0.0)) return;
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
   if (rates[RATE_CLEARANCE * stride + i] > p->guard_distance + R(0.25) * p->spacing) return;
   sweep_t a = {0};

@@ -9,7 +9,8 @@ typedef struct {
   real distance;     // of the point from the element's plane, positive on the fluid's side
   real along;        // signed tangential coordinates of the element's centre
   real across;
-  real gap;          // by which the wall that it stands for reaches beyond the rectangle: none unless that wall is no rectangle
+  real gap_along;    // by which the wall that it stands for reaches beyond the rectangle: nothing unless that wall is no rectangle
+  real gap_across;
   bool over;         // the point's foot lies on the rectangle
 } wall_view_t;
 
@@ -23,6 +24,11 @@ typedef struct {
 // How far the point's foot lies beside the rectangle; negative on it.
 INLINE real beside_wall(const wall_view_t* v) { return fmax(fabs(v->along) - v->half_along, fabs(v->across) - v->half_across); }
 
+// The same for the wall that the rectangle stands for, or less.
+INLINE real beside_whole_wall(const wall_view_t* v) {
+  return fmax(fabs(v->along) - v->half_along - v->gap_along, fabs(v->across) - v->half_across - v->gap_across);
+}
+
 INLINE wall_view_t view_wall(__constant const parameters_t* p, __global const real* walls, int stride, int s, real rx, real ry, real rz) {
   wall_view_t v;
   v.normal_x = walls[WALL_NORMAL_X * stride + s];
@@ -31,7 +37,8 @@ INLINE wall_view_t view_wall(__constant const parameters_t* p, __global const re
   const real tz = walls[WALL_TANGENT_Z * stride + s];
   v.area = walls[WALL_AREA * stride + s];
   v.half_along = walls[WALL_HALF_ALONG * stride + s];
-  v.gap = walls[WALL_GAP * stride + s];
+  v.gap_along = walls[WALL_GAP_ALONG * stride + s];
+  v.gap_across = walls[WALL_GAP_ACROSS * stride + s];
 #if DIMENSIONS == 3
   v.normal_y = walls[WALL_NORMAL_Y * stride + s];
   const real ty = walls[WALL_TANGENT_Y * stride + s];
@@ -56,7 +63,7 @@ INLINE wall_view_t view_wall(__constant const parameters_t* p, __global const re
 // How near the point is to the element, at the least: what the guard asks. Beside an element it counts too, for a point that comes round an edge.
 INLINE real wall_clearance(__constant const parameters_t* p, const wall_view_t* v) {
   if (v->over) return v->distance > -BEHIND_TOLERANCE * p->spacing ? v->distance : p->support;
-  return fmax(fabs(v->distance), beside_wall(v) - v->gap);
+  return fmax(fabs(v->distance), beside_whole_wall(v));
 }
 
 // atan2(y, x) for x ≥ 0. In float32 by a polynomial of our own, fitted at Chebyshev nodes, error below 1.1e-7: the library's function is a call, which
@@ -83,12 +90,12 @@ INLINE real arctangent(real y, real x) {
 }
 
 #if DIMENSIONS == 3
-// Solid angle between the foot point and the corner (a, b) of a rectangle at distance d ≥ 0, signed by a and b ([G] B.2). As an arctangent of a quotient
+// Solid angle between the foot point and the corner (a, b) of a rectangle at distance d ≥ 0, signed by a and b ([C] of docs/numerics.md, B.2). As an arctangent of a quotient
 // it needs no case distinction, keeps its precision for small elements, and tends to ±π/2 on the plane.
 INLINE real corner_angle(real d, real a, real b) { return arctangent(a * b, d * sqrt(d * d + a * a + b * b)); }
 #endif
 
-// The element's term of γ(x) = 1 + Σ_s ∫ n·(y−x) Φ dS ([G] eqs 8–12 with signs corrected): the polynomial part of Φ by the midpoint rule with its
+// The element's term of γ(x) = 1 + Σ_s ∫ n·(y−x) Φ dS ([C] eqs 8–12 with signs corrected): the polynomial part of Φ by the midpoint rule with its
 // second-order term (the squared sides/24 of the tangential second derivatives), without which walls at right angles miss γ by more than 2e-3; the divergent part exactly,
 // through the angle that the element subtends. Nearer than LEAST_DISTANCE that angle is taken at LEAST_DISTANCE, or the rounding of a border would be as
 // large as the distance and the angles of two neighbours would not add up; down to half of it behind the plane, the point lies in the plane.

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "wavetank/geometry/layout.h"
+
+namespace wavetank {
+
+/// A wall with fluid on both sides.
+struct ThinWall {
+  int owner = 0;                      ///< 0 the tank, 1 + i body i
+  double thickness = 0;               ///< m
+  Vector3d place = Vector3d::Zero();  ///< of an element there, m
+};
+
+/// The thinnest place where wall elements stand back to back nearer than `thickness`, measured from centre to centre to about half a
+/// spacing along the wall; none if there is no such place.
+std::optional<ThinWall> thinnest_wall(const Layout& layout, double thickness);
+
+}  // namespace wavetank
