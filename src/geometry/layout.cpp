@@ -222,7 +222,7 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
 
   for (Part& part : parts) {
     layout.meshes.push_back(std::move(part.mesh));
-    layout.body_closed.push_back(part.closed);
+    layout.closed.push_back(part.closed);
   }
   return layout;
 }

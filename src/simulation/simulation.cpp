@@ -127,7 +127,7 @@ struct Simulation::Parts {
 
 /// Throws Violation for a step that the simulation may not go on from.
 void Simulation::Parts::check(const StepReport& r) const {
-  const std::string when = " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops.";
+  const std::string when = " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops";
   if (r.offender >= 0) {
     std::string what;
     const auto add = [&](int count, const std::string& text) {

@@ -54,7 +54,7 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
     d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil(extent / d.support)) + 2;
     total *= d.cells[axis];
   }
-  const bool has_lid = !layout.body_closed.empty() && layout.body_closed[0];
+  const bool has_lid = !layout.closed.empty() && layout.closed[0];
   if (!has_lid) d.upper.z() += throw_height;
   if (total > std::numeric_limits<int>::max() / 4.0)
     throw Error("the tank needs " + std::to_string(total) +

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,27 +10,18 @@
 #include <string>
 #include <vector>
 
-#include "wavetank/common/error.h"
+#include "../common/box_case.h"
+#include "../common/error_of.h"
+#include "../common/scratch_directory.h"
 #include "wavetank/geometry/layout.h"
 #include "wavetank/geometry/mesh.h"
 
 namespace wavetank {
 
-/// A directory of one test's own, removed with it.
+/// A test with a directory of its own.
 class GeometryTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    directory =
-        std::filesystem::temp_directory_path() / (std::string("wavetank_geometry_") + info->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(directory);
-  }
-  void TearDown() override { std::filesystem::remove_all(directory); }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(directory / name, std::ios::binary) << text;
-    return (directory / name).string();
-  }
+  std::string write(const std::string& name, const std::string& text) const { return scratch.write(name, text); }
 
   /// The mesh as an OBJ file.
   std::string write(const std::string& name, const TriangleMesh& mesh) const {
@@ -42,7 +32,8 @@ class GeometryTest : public ::testing::Test {
     return write(name, text.str());
   }
 
-  std::filesystem::path directory;
+  const ScratchDirectory scratch;
+  const std::filesystem::path directory = scratch.path();
 };
 
 inline std::string repository_mesh(const std::string& name) { return std::string(WAVETANK_SOURCE_DIRECTORY) + "/meshes/" + name; }
@@ -51,18 +42,6 @@ inline MeshSource source(const std::string& uri) {
   MeshSource result;
   result.uri = uri;
   return result;
-}
-
-/// The message of the Error that `call` throws; a failure if it throws none.
-template <class Call>
-std::string error_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return "";
 }
 
 #define EXPECT_ERROR(call, part)                                                       \
@@ -111,17 +90,5 @@ inline double total(const std::vector<double>& values) {
   for (const double value : values) sum += value;
   return sum;
 }
-
-/// A 3-D case in a box tank from the origin, filled by one box over the whole floor.
-inline Case box_case(const Vector3d& size, double depth, double spacing) {
-  Case result;
-  result.tank.shape = BoxTank{size, Vector3d::Zero(), false};
-  result.fluid.spacing = spacing;
-  result.fluid.fill = {Box{Vector3d::Zero(), Vector3d(size.x(), size.y(), depth)}};
-  if (size.y() == 0) result.dimensions = 2;
-  return result;
-}
-
-inline Layout lay_out(const Case& checked) { return lay_out(checked, ResourceResolver()); }
 
 }  // namespace wavetank

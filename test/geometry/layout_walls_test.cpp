@@ -81,7 +81,7 @@ TEST_F(LayoutWalls, AClosedTankHasALid) {
   EXPECT_NEAR(sums.area, 2 * (0.5 + 0.35 + 0.7), 1e-12);
   EXPECT_LT(sums.flux.norm(), 1e-12);
   EXPECT_NEAR(sums.divergence, 3 * 0.35, 1e-12);
-  EXPECT_TRUE(layout.body_closed[0]);
+  EXPECT_TRUE(layout.closed[0]);
 }
 
 TEST_F(LayoutWalls, AreasOfAnyFlatRegionAreExact) {
@@ -276,7 +276,7 @@ TEST_F(LayoutWalls, OfAThickWalledTankOnlyTheInnerSkinStays) {
   EXPECT_NEAR(sums_of(layout, 0).area, floor + sides, 1e-6);
   EXPECT_NEAR(total(layout.volumes), 0.4 * floor, 1e-6);
   for (const WallElement& wall : layout.walls) EXPECT_GT(wall.centre.z(), -1e-6);
-  EXPECT_TRUE(layout.body_closed[0]);
+  EXPECT_TRUE(layout.closed[0]);
 }
 
 TEST_F(LayoutWalls, RoundTanksFaceOutwards) {

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
-#include <unistd.h>
 
 #include <filesystem>
+
+#include "../common/scratch_directory.h"
 
 namespace wavetank {
 
@@ -13,18 +14,13 @@ namespace fs = std::filesystem;
 
 class BagWriterTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "bag_writer_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return scratch_.file(name); }
   static std_msgs::String text(const std::string& data) {
     std_msgs::String message;
     message.data = data;
     return message;
   }
-  fs::path folder_;
+  const ScratchDirectory scratch_;
 };
 
 TEST_F(BagWriterTest, WritesUnderATemporaryNameAndRenamesAtTheEnd) {
@@ -57,12 +53,12 @@ TEST_F(BagWriterTest, ReadsBackWithTopicsTimesAndLatching) {
 
 TEST_F(BagWriterTest, LeavesNothingWhenItIsNotFinished) {
   { BagWriter(path("a.bag"), "/wavetank").write("note", ros::Time(1.0), text("lost")); }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(scratch_.path()));
 }
 
 TEST_F(BagWriterTest, RefusesPlacesWhereNoBagCanBe) {
   EXPECT_THROW(BagWriter(path("no/such/a.bag"), "/wavetank"), Error);
-  EXPECT_THROW(BagWriter(folder_.string(), "/wavetank"), Error);
+  EXPECT_THROW(BagWriter(scratch_.path().string(), "/wavetank"), Error);
   EXPECT_THROW(BagWriter("/proc/a.bag", "/wavetank"), Error);
 }
 

@@ -23,7 +23,7 @@ wavetank::Case column(int dimensions, wavetank::DensityDiffusion diffusion) {
 }
 
 void run(const wavetank::compute::Device& device, const wavetank::Case& checked) {
-  const wavetank::Layout layout = wavetank::lay_out(checked, {});
+  const wavetank::Layout layout = wavetank::lay_out(checked);
   const wavetank::Case scene = wavetank::settled(checked, layout);
   const auto solver =
       wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)});

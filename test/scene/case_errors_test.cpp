@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <optional>
 
+#include "../common/scratch_directory.h"
 #include "wavetank/common/error.h"
 #include "wavetank/scene/case_reader.h"
 
@@ -62,24 +61,6 @@ struct Fault {
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 class BrokenCase : public testing::TestWithParam<Fault> {};
-
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = testing::TempDir() + "wavetank_case_XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = pattern;
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  const std::string& path() const { return path_; }
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ + "/" + name, std::ios::binary) << content;
-    return path_ + "/" + name;
-  }
-
- private:
-  std::string path_;
-};
 
 std::string file_error(const std::string& path) {
   try {
@@ -263,10 +244,10 @@ TEST(BrokenCases, InParametersHaveNoLine) {
 }
 
 TEST(BrokenFiles, AreRefused) {
-  const TemporaryDirectory directory;
-  EXPECT_EQ(file_error(directory.path() + "/none.yaml"),
-            directory.path() + "/none.yaml: cannot open the case file: No such file or directory");
-  EXPECT_EQ(file_error(directory.path()), directory.path() + ": is a directory; a case is a YAML file");
+  const ScratchDirectory directory;
+  EXPECT_EQ(file_error(directory.file("none.yaml")),
+            directory.file("none.yaml") + ": cannot open the case file: No such file or directory");
+  EXPECT_EQ(file_error(directory.path().string()), directory.path().string() + ": is a directory; a case is a YAML file");
   EXPECT_TRUE(contains(file_error(""), "cannot open the case file"));
   const std::string stl = directory.write("cube.stl", std::string(80, '\0') + "\x0c");
   EXPECT_TRUE(contains(file_error(stl), stl + ":1: not a text file")) << file_error(stl);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -11,21 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "../common/box_case.h"
+#include "../common/error_of.h"
+#include "../common/scratch_directory.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
-
-/// A case in a box tank, filled over its whole floor; 2-D where size y is 0.
-inline Case box_case(const Vector3d& size, double depth, double spacing) {
-  Case result;
-  result.title = "a box tank";
-  result.dimensions = size.y() == 0 ? 2 : 3;
-  result.duration = 1;
-  result.fluid.spacing = spacing;
-  result.fluid.fill = {Box{Vector3d::Zero(), Vector3d(size.x(), size.y(), depth)}};
-  result.tank.shape = BoxTank{size, Vector3d::Zero(), false};
-  return result;
-}
 
 /// A small dam break in 2-D: a column of 0.4 m × 0.4 m in a tank of 1.2 m × 0.8 m, with probes and gauges.
 inline Case dam_break(double spacing) {
@@ -81,18 +71,10 @@ inline bool same(const Samples& a, const Samples& b) {
          });
 }
 
-/// A directory of one test's own, removed with it.
+/// A test with a directory of its own.
 class SimulationTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    directory =
-        std::filesystem::temp_directory_path() / (std::string("wavetank_simulation_") + info->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(directory);
-  }
-  void TearDown() override { std::filesystem::remove_all(directory); }
-
-  std::string path(const std::string& name) const { return (directory / name).string(); }
+  std::string path(const std::string& name) const { return scratch.file(name); }
 
   /// The bytes of the simulation's snapshot.
   std::string snapshot(const Simulation& simulation) const {
@@ -105,19 +87,8 @@ class SimulationTest : public ::testing::Test {
   }
   static void write(const std::string& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
 
-  std::filesystem::path directory;
+  const ScratchDirectory scratch;
+  const std::filesystem::path directory = scratch.path();
 };
-
-/// The message of the Error that `call` throws; a failure if it throws none.
-template <class Call>
-std::string error_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return "";
-}
 
 }  // namespace wavetank

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../../src/sph/kernel_parameters.h"
+#include "../common/box_case.h"
 #include "wavetank/common/error.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/sph/solver.h"
@@ -22,20 +23,6 @@ inline const compute::Device& test_device() {
 }
 
 inline bool has_precision(Precision precision) { return precision == Precision::single || test_device().info().has_double; }
-
-/// A case in a box tank from the origin, filled over its whole floor; 2-D where size y is 0. Quiet defaults of the demo cases.
-inline Case box_case(const Vector3d& size, double depth, double spacing) {
-  Case result;
-  result.title = "a box tank";
-  result.dimensions = size.y() == 0 ? 2 : 3;
-  result.duration = 1;
-  result.fluid.spacing = spacing;
-  result.fluid.fill = {Box{Vector3d::Zero(), Vector3d(size.x(), size.y(), depth)}};
-  result.tank.shape = BoxTank{size, Vector3d::Zero(), false};
-  return result;
-}
-
-inline Layout lay_out(const Case& checked) { return lay_out(checked, ResourceResolver()); }
 
 /// A solver with all that it was made from.
 struct Tank {

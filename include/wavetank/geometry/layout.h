@@ -28,13 +28,13 @@ struct Layout {
   std::vector<Vector3d> particles;   ///< centres, m
   std::vector<double> volumes;       ///< of each particle, m³ (2-D: m²)
   std::vector<double> levels;        ///< z of the free surface over each particle, as filled, m
-  std::vector<bool> body_closed;     ///< of each mesh: encloses a volume
+  std::vector<bool> closed;          ///< of each mesh: encloses a volume
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
 /// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor
 /// under it, where elements that the box covers partly are clipped at its sides. Throws Error for every mesh fault, for fluid outside the
 /// tank or leaking from it, for an empty fill, and for a probe inside a body or outside the tank.
-Layout lay_out(const Case& checked, const ResourceResolver& resolve);
+Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});
 
 }  // namespace wavetank

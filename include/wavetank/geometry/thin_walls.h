@@ -13,8 +13,9 @@ struct ThinWall {
   Vector3d place = Vector3d::Zero();  ///< of an element there, m
 };
 
-/// The thinnest place where wall elements stand back to back nearer than `thickness`, measured from centre to centre to about half a
-/// spacing along the wall; none if there is no such place.
+/// The thinnest place where wall elements face away from each other (within 37° of opposite) with less than `thickness` (m) of wall between
+/// them, measured along the normal of one between centres that lie no more than a spacing beside each other; none if there is no such
+/// place.
 std::optional<ThinWall> thinnest_wall(const Layout& layout, double thickness);
 
 }  // namespace wavetank

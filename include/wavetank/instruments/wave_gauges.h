@@ -10,7 +10,8 @@ namespace wavetank {
 
 /// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
 /// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
-/// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
+/// A body on the line counts as water where water stands on it, and not where it is dry. The kernel smooths it over the support; the
+/// integral is taken with points a quarter of the spacing apart.
 class WaveGauges {
  public:
   WaveGauges(const Case& scene, const Layout& layout, const Solver& solver);

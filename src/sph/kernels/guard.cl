@@ -1,6 +1,6 @@
-// Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity relative to the wall;
-// one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an open tank, where there
-// is no wall, on the sides of the tank's bounding box.
+// Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
+// relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
+// open tank, where there is no wall, on the sides of the tank's bounding box.
 #include "wall_element.cl"
 #define SWEEP_WALLS
 
