@@ -181,7 +181,9 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
   }
 }
 
-void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, int dimensions, Layout& layout) {
+void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+  const int dimensions = checked.dimensions;
+  const WallCase& kind = checked.numerics.walls;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::vector<WallPatch> patches =
         dimensions == 2 ? sample_outline(parts[p].outline, layout.spacing) : sample_mesh(parts[p].mesh, layout.spacing);
@@ -193,6 +195,31 @@ void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const Tria
       }
     }
     layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
+    const auto add = [&](const std::vector<WallPatch>& from, std::vector<Facet>& to) {
+      const std::vector<Facet> facets = face_facets(from, static_cast<int>(p), open, grid, layout.spacing, dimensions);
+      to.insert(to.end(), facets.begin(), facets.end());
+    };
+    if (kind.method == WallMethod::ghost || kind.elements == WallElements::facet)
+      add(dimensions == 2 ? whole_facets(parts[p].outline, layout.spacing) : whole_facets(parts[p].mesh), layout.facets);
+    else if (kind.elements == WallElements::semi_analytical)
+      add(patches, layout.triangles);
+  }
+}
+
+/// Takes out the walls at the ends of a periodic tank.
+void open_periodic_ends(const std::array<bool, 3>& periodic, Layout& layout) {
+  const double tolerance = 1e-3 * layout.spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic[axis]) continue;
+    const auto at_end = [&](const Vector3d& place, const Vector3d& normal) {
+      const double end = normal[axis] < 0 ? layout.domain.min[axis] : layout.domain.max[axis];
+      return std::abs(normal[axis]) > 0.999 && std::abs(place[axis] - end) < tolerance;
+    };
+    const auto facet_at_end = [&](const Facet& facet) { return at_end(facet.plane_point, facet.normal); };
+    const auto element_at_end = [&](const WallElement& wall) { return at_end(wall.centre, wall.normal); };
+    layout.walls.erase(std::remove_if(layout.walls.begin(), layout.walls.end(), element_at_end), layout.walls.end());
+    layout.facets.erase(std::remove_if(layout.facets.begin(), layout.facets.end(), facet_at_end), layout.facets.end());
+    layout.triangles.erase(std::remove_if(layout.triangles.begin(), layout.triangles.end(), facet_at_end), layout.triangles.end());
   }
 }
 
@@ -216,7 +243,8 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
 
   OpenSpace open(layout.domain, checked.dimensions, layout.spacing, grid, Walls::all);
   open.flood(layout.particles);
-  add_walls(parts, open, grid, checked.dimensions, layout);
+  add_walls(parts, open, grid, checked, layout);
+  open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "wavetank/geometry/mesh.h"
+
 namespace wavetank {
 namespace {
 

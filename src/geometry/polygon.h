@@ -24,9 +24,6 @@ Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset
 /// Cuts a flat polygon, convex or not, into triangles over its corners by clipping ears; indices into `corners`.
 std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners);
 
-/// Closest point of a triangle.
-Vector3d nearest_on_triangle(const Vector3d& point, const Vector3d& a, const Vector3d& b, const Vector3d& c);
-
 /// "(1.2, 0, 3)", for messages.
 std::string describe(const Vector3d& point);
 std::string describe(double value);

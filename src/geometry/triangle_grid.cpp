@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "polygon.h"
+#include "wavetank/geometry/mesh.h"
 
 namespace wavetank {
 namespace {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace wavetank {
@@ -51,23 +52,53 @@ class Facer {
       const Vector3d area = vector_area(piece);
       if (area.norm() <= 0) continue;
       const Vector3d to_fluid = sign * area.normalized();
-      const std::vector<Vector3d> cuts = cutting_planes(piece, to_fluid);
-      if (cuts.empty()) {
-        if (wetted(piece, to_fluid)) result.add(piece, -to_fluid, patch.area_factor);
-        continue;
-      }
-      std::vector<Polygon> wet;
-      const std::vector<Polygon> parts = split(piece, cuts);
-      for (const Polygon& part : parts) {
-        if (wetted(part, to_fluid)) wet.push_back(part);
-      }
-      if (wet.size() == parts.size()) wet.assign(1, piece);
-      for (const Polygon& part : wet) result.add(part, -to_fluid, patch.area_factor);
+      for (const Polygon& part : wet_parts(piece, to_fluid)) result.add(part, -to_fluid, patch.area_factor);
     }
     return result;
   }
 
+  /// The parts of the piece that fluid on the side of `to_fluid` wets; the piece itself where all of it is wetted.
+  std::vector<Polygon> wet_parts(const Polygon& piece, const Vector3d& to_fluid) const {
+    const std::vector<Vector3d> cuts = cutting_planes(piece, to_fluid);
+    if (cuts.empty()) return wetted(piece, to_fluid) ? std::vector<Polygon>{piece} : std::vector<Polygon>{};
+    std::vector<Polygon> parts;
+    const bool too_many = cuts.size() >= 2 * most_cuts && vector_area(piece).norm() > spacing_ * spacing_;
+    std::vector<Polygon> wet;
+    if (too_many) {  // a large piece under a curved body: in halves
+      parts = halves(piece);
+      bool whole = true;
+      for (const Polygon& half : parts) {
+        const std::vector<Polygon> of_half = wet_parts(half, to_fluid);
+        whole = whole && of_half.size() == 1 && of_half.front().size() == half.size() && of_half.front().front() == half.front();
+        wet.insert(wet.end(), of_half.begin(), of_half.end());
+      }
+      if (whole) wet.assign(1, piece);
+      return wet;
+    }
+    parts = split(piece, cuts);
+    for (const Polygon& part : parts) {
+      if (wetted(part, to_fluid)) wet.push_back(part);
+    }
+    if (wet.size() == parts.size()) wet.assign(1, piece);
+    return wet;
+  }
+
  private:
+  std::vector<Polygon> halves(const Polygon& piece) const {
+    Vector3d longest = Vector3d::Zero();
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const Vector3d edge = piece[(k + 1) % piece.size()] - piece[k];
+      if (edge.norm() > longest.norm()) longest = edge;
+    }
+    const double offset = longest.normalized().dot(centroid(piece));
+    std::vector<Polygon> result;
+    for (const double side : {1.0, -1.0}) {
+      Polygon half = part_below(piece, side * longest.normalized(), side * offset, 1e-6 * spacing_);
+      if (half.size() > 2) result.push_back(std::move(half));
+    }
+    return result;
+  }
+
   bool wetted(const Polygon& piece, const Vector3d& to_fluid) const {
     const Vector3d centre = centroid(piece), from = centre + lift * spacing_ * to_fluid;
     // At a sharp edge another face may pass between the piece and the place in front of it.
@@ -221,7 +252,79 @@ void fit_rectangle(WallElement& wall, const Polygon& corners) {
   for (int k = 0; k < 2; ++k) wall.gap[k] = std::max(reach[k] - half[k], 0.0);
 }
 
+/// The segment that a ribbon across the x–z plane stands for.
+Facet segment_of(const Polygon& ribbon, const Vector3d& along) {
+  Facet facet;
+  double least = std::numeric_limits<double>::max(), most = -least;
+  for (const Vector3d& corner : ribbon) {
+    const double at = along.dot(corner);
+    const Vector3d in_plane(corner.x(), 0, corner.z());
+    if (at < least) facet.corners[0] = in_plane;
+    if (at > most) facet.corners[1] = in_plane;
+    least = std::min(least, at);
+    most = std::max(most, at);
+  }
+  facet.corners[2] = facet.corners[1];
+  return facet;
+}
+
 }  // namespace
+
+std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
+                               double spacing, int dimensions) {
+  const Facer facer(open, grid, spacing);
+  std::vector<Facet> facets;
+  for (const WallPatch& patch : patches) {
+    for (const Polygon& piece : patch.pieces) {
+      const Vector3d area = vector_area(piece);
+      if (area.norm() <= 0) continue;
+      const bool has_plane = patch.plane_normal.squaredNorm() > 0;
+      const Vector3d plane_normal = has_plane ? patch.plane_normal : area.normalized();
+      const double turn = area.dot(plane_normal) > 0 ? 1.0 : -1.0;
+      for (const double sign : {1.0, -1.0}) {
+        for (const Polygon& part : facer.wet_parts(piece, sign * area.normalized())) {
+          Facet facet;
+          if (dimensions == 2) facet = segment_of(part, patch.tangent);
+          facet.normal = -sign * turn * plane_normal;
+          facet.plane_point = has_plane ? patch.plane_point : piece[0];
+          facet.owner = owner;
+          if (dimensions == 2) {
+            facet.normal.y() = 0;
+            facets.push_back(facet);
+            continue;
+          }
+          for (const Eigen::Vector3i& t : triangulate(part)) {
+            for (int k = 0; k < 3; ++k) facet.corners[k] = part[t[k]];
+            facets.push_back(facet);
+          }
+        }
+      }
+    }
+  }
+  return facets;
+}
+
+std::vector<Facet> facets_of(const WallElement& element, int dimensions) {
+  const double along = 0.5 * (dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area);
+  const double across = dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0;
+  const Vector3d a = along * element.tangent, b = across * element.normal.cross(element.tangent);
+  Facet facet;
+  facet.normal = element.normal;
+  facet.plane_point = element.centre;
+  facet.owner = element.owner;
+  if (dimensions == 2) {
+    facet.corners[0] = element.centre - a;
+    facet.corners[1] = facet.corners[2] = element.centre + a;
+    return {facet};
+  }
+  std::vector<Facet> result(2, facet);
+  const Vector3d corners[4] = {element.centre - a - b, element.centre + a - b, element.centre + a + b, element.centre - a + b};
+  for (int k = 0; k < 3; ++k) {
+    result[0].corners[k] = corners[k];
+    result[1].corners[k] = corners[(k + 2) % 4];
+  }
+  return result;
+}
 
 std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
                                     double spacing) {

@@ -15,4 +15,8 @@ namespace wavetank {
 std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
                                     double spacing);
 
+/// The same patches' wetted parts as triangles, or in 2-D as segments along their tangents.
+std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
+                               double spacing, int dimensions);
+
 }  // namespace wavetank

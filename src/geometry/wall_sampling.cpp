@@ -50,6 +50,8 @@ void add_rectangle(const PlanarRegion& region, double spacing, std::vector<WallP
       patches.push_back({{{corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}},
                          region.along,
                          region.area / (size.x() * size.y()),
+                         Vector3d::Zero(),
+                         Vector3d::Zero(),
                          region.curved});
     }
   }
@@ -129,7 +131,8 @@ void add_clipped(const PlanarRegion& region, double spacing, std::vector<WallPat
   join_slivers(cells, grid);
   double sampled = 0;
   for (const auto& [cell, pieces] : cells) sampled += area_of(pieces);
-  for (auto& [cell, pieces] : cells) patches.push_back({std::move(pieces), region.along, region.area / sampled, region.curved});
+  for (auto& [cell, pieces] : cells)
+    patches.push_back({std::move(pieces), region.along, region.area / sampled, Vector3d::Zero(), Vector3d::Zero(), region.curved});
 }
 
 double turn(const Vector3d& before, const Vector3d& after) {
@@ -183,8 +186,42 @@ std::vector<WallPatch> sample_outline(const Outline& outline, double spacing) {
       const int cells = cells_in(way.norm(), spacing);
       for (int i = 0; i < cells; ++i) {
         const Vector3d a = from + way * i / cells, b = from + way * (i + 1) / cells;
-        patches.push_back({{{a - half, b - half, b + half, a + half}}, way.normalized(), 1.0, curved});
+        patches.push_back({{{a - half, b - half, b + half, a + half}}, way.normalized(), 1.0, Vector3d::Zero(), Vector3d::Zero(), curved});
       }
+    }
+  }
+  return patches;
+}
+
+std::vector<WallPatch> whole_facets(const TriangleMesh& mesh) {
+  std::vector<WallPatch> patches;
+  for (const PlanarRegion& region : planar_regions(mesh)) {
+    for (const FlatTriangle& t : region.triangles) {
+      WallPatch patch;
+      patch.pieces = {{in_space(region, t[0]), in_space(region, t[1]), in_space(region, t[2])}};
+      patch.tangent = region.along;
+      patch.plane_point = region.origin;
+      patch.plane_normal = region.along.cross(region.across);
+      patches.push_back(patch);
+    }
+  }
+  return patches;
+}
+
+std::vector<WallPatch> whole_facets(const Outline& outline, double width) {
+  const Vector3d half(0, 0.5 * width, 0);
+  std::vector<WallPatch> patches;
+  for (const Polyline& given : outline) {
+    const Polyline line = without_straight_points(given);
+    const std::size_t count = line.points.size(), sides = line.closed ? count : count - 1;
+    for (std::size_t k = 0; k < sides; ++k) {
+      const Vector3d a = line.points[k], b = line.points[(k + 1) % count];
+      WallPatch patch;
+      patch.pieces = {{a - half, b - half, b + half, a + half}};
+      patch.tangent = (b - a).normalized();
+      patch.plane_point = a;
+      patch.plane_normal = patch.tangent.cross(Vector3d::UnitY());
+      patches.push_back(patch);
     }
   }
   return patches;

@@ -13,7 +13,9 @@ struct WallPatch {
   std::vector<Polygon> pieces;  ///< convex, all turned the same way
   Vector3d tangent;             ///< unit, along a side
   double area_factor = 1;       ///< true area over the pieces' area: corrects the rounding of nearly flat, nearly rectangular regions
-  bool curved = false;          ///< of a curved wall: may be joined with its neighbours if it is small
+  Vector3d plane_point = Vector3d::Zero();   ///< of facets: a point of the plane ...
+  Vector3d plane_normal = Vector3d::Zero();  ///< ... and its unit normal, the same for all triangles of one plane
+  bool curved = false;                       ///< of a curved wall: may be joined with its neighbours if it is small
 };
 
 /// Cuts a surface into patches of about the spacing. Rectangles become regular grids of equal cells; other flat regions a square grid along
@@ -22,5 +24,11 @@ std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing);
 
 /// The same in 2-D: straight runs become equal pieces. Each piece is a ribbon as wide as the spacing across the x–z plane.
 std::vector<WallPatch> sample_outline(const Outline& outline, double spacing);
+
+/// The surface's own triangles, uncut.
+std::vector<WallPatch> whole_facets(const TriangleMesh& mesh);
+
+/// An outline's straight runs, uncut, as ribbons of the given width (m) across the x–z plane.
+std::vector<WallPatch> whole_facets(const Outline& outline, double width);
 
 }  // namespace wavetank

@@ -82,6 +82,8 @@ Section<TankCase> tank_section() {
   section.key("splash_guard", &TankCase::splash_guard, flag(), "",
               "Keeps spray above the tank's highest point over its bounding box, as by smooth walls; without it, a particle that flies "
               "out stops the run.");
+  section.key("periodic", &TankCase::periodic, axes(), "",
+              "Directions in which the tank repeats itself: it has no walls at these ends, and what leaves at one comes in at the other.");
   return section;
 }
 
@@ -92,6 +94,8 @@ Section<BodyCase> body_section() {
            "Part of the names of the body's topics and frame; its own among bodies, probes and gauges.")
       .required = true;
   section.key("motion", &BodyCase::motion, choice<Motion>({{"fixed", Motion::fixed}}), "", "How the body moves.");
+  section.key("surface_velocity", &BodyCase::surface_velocity, vector(), "m/s",
+              "Of a belt: its surface runs at this velocity while the body stands; only the part along the surface acts.");
   section.key_of<Box>(&BodyCase::shape, "box", Whole{}, section_of(box_section()), "", "A box.").required = true;
   add_mesh_keys(section, &BodyCase::shape);
   return section;
@@ -99,14 +103,28 @@ Section<BodyCase> body_section() {
 
 Section<WallCase> wall_section() {
   Section<WallCase> section;
-  section.key("method", &WallCase::method, choice<WallMethod>({{"boundary_integral", WallMethod::boundary_integral}}), "",
-              "How walls act on the fluid.");
-  section.key("shepard", &WallCase::shepard, choice<ShepardFactor>({{"geometric", ShepardFactor::geometric}}), "",
-              "How the Shepard factor γ, the kernel's integral over the fluid's side of the walls, is found.");
-  section.key("elements", &WallCase::elements, choice<WallElements>({{"numerical", WallElements::numerical}}), "",
-              "How a wall element's share of a boundary integral is found.");
+  section.key(
+      "method", &WallCase::method, choice<WallMethod>({{"boundary_integral", WallMethod::boundary_integral}, {"ghost", WallMethod::ghost}}),
+      "", "How walls act on the fluid: by boundary integrals, or by mirror images of the particles, for tanks of planes at right angles.");
+  section.key("shepard", &WallCase::shepard,
+              choice<ShepardFactor>({{"none", ShepardFactor::none},
+                                     {"volumetric", ShepardFactor::volumetric},
+                                     {"monolithic", ShepardFactor::monolithic},
+                                     {"geometric", ShepardFactor::geometric}}),
+              "", "How the Shepard factor γ, the kernel's integral over the fluid's side of the walls, is found.");
+  section.key(
+      "elements", &WallCase::elements,
+      choice<WallElements>(
+          {{"numerical", WallElements::numerical}, {"semi_analytical", WallElements::semi_analytical}, {"facet", WallElements::facet}}),
+      "",
+      "What the boundary integrals sum over: rectangles of about Δx, triangles of about Δx, or the mesh's own triangles of any size, "
+      "exactly.");
   section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
               "The fluid's velocity along a wall.");
+  section.key("renormalise_divergence", &WallCase::renormalise_divergence, flag(), "",
+              "Whether the velocity's divergence is divided by the Shepard factor, as the pressure's gradient is.");
+  section.key("repulsion", &WallCase::repulsion, number(between(0, 1)), "(c₀/10)²",
+              "Of ghosts: strength of a short-range repulsion by the wall; 0 leaves it out.");
   section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
               "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off, but not the splash guard.");
   return section;

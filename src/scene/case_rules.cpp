@@ -30,6 +30,26 @@ class NameCheck {
   std::map<std::string, std::string> paths_;  ///< by name
 };
 
+void check_walls(const Case& read, const Setting& root) {
+  const WallCase& walls = read.numerics.walls;
+  const auto clash = [&](const std::string& path, const std::string& text) {
+    throw Error(nearest_setting(root, path).place.describe() + ": " + path + " is " + text);
+  };
+  if (walls.shepard == ShepardFactor::monolithic && walls.elements == WallElements::facet)
+    clash("numerics/walls/shepard",
+          "monolithic, a midpoint rule, which facets of any size do not have; choose geometric, or other elements");
+  if (walls.method == WallMethod::ghost && !read.bodies.empty())
+    clash("numerics/walls/method",
+          "ghost, which mirrors the particles at the tank's planes only; leave out the bodies, or choose boundary_integral");
+  if (walls.method != WallMethod::ghost && walls.repulsion > 0.0)
+    clash("numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!read.tank.periodic[axis] || axis == 1) continue;
+    if (axis == 2 && read.gravity.z() != 0.0)
+      clash("tank/periodic", "periodic along z, along which gravity acts; set gravity to zero along z, or leave z out");
+  }
+}
+
 }  // namespace
 
 void check_case(const Case& read, const Setting& root) {
@@ -41,6 +61,7 @@ void check_case(const Case& read, const Setting& root) {
     throw Error(nearest_setting(root, "gravity").place.describe() +
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
+  check_walls(read, root);
   NameCheck names(read, root);
   names.check(read.bodies, "bodies");
   names.check(read.instruments.pressure_probes, "instruments/pressure_probes");

@@ -264,6 +264,29 @@ Codec<Vector3d> gauge_position() {
           }};
 }
 
+Codec<std::array<bool, 3>> axes() {
+  return {"list of x, y, z", "",
+          [](const Setting& setting, const Item& item, Context& context) {
+            const std::string demand = context.dimensions == 2 ? "a list of the letters x and z" : "a list of the letters x, y and z";
+            if (setting.kind != Setting::Kind::list) refuse(setting, item, demand);
+            std::array<bool, 3> chosen{};
+            for (const Setting& letter : setting.items) {
+              const bool known =
+                  letter.kind == Setting::Kind::scalar && letter.text.size() == 1 && letter.text[0] >= 'x' && letter.text[0] <= 'z';
+              if (!known || (context.dimensions == 2 && letter.text == "y")) refuse(setting, item, demand);
+              chosen[letter.text[0] - 'x'] = true;
+            }
+            return chosen;
+          },
+          [](const std::array<bool, 3>& value, const Context&) -> std::optional<Setting> {
+            std::vector<Setting> letters;
+            for (int axis = 0; axis < 3; ++axis) {
+              if (value[axis]) letters.push_back(Setting::string(std::string(1, static_cast<char>('x' + axis))));
+            }
+            return Setting::list(letters);
+          }};
+}
+
 Codec<Vector3d> angles() {
   return {"[roll, pitch, yaw]", "",
           [](const Setting& setting, const Item& item, Context&) {

@@ -61,10 +61,12 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
                 " grid cells of the support's size, more than can be indexed: raise fluid/spacing.");
 
   const NumericsCase& numerics = settled_case.numerics;
-  const double kinematic = settled_case.fluid.viscosity / settled_case.fluid.density +
-                           numerics.artificial_viscosity * d.smoothing_length * d.sound_speed / (2.0 * (d.dimensions + 2));
+  const double physical = settled_case.fluid.viscosity / settled_case.fluid.density;
+  const double artificial = numerics.artificial_viscosity * d.smoothing_length * d.sound_speed / (2.0 * (d.dimensions + 2));
+  // exchange with other particles, and with a wall as near as half a spacing, whose drag is the stiffer the smaller the spacing is beside h
+  const double rate = 8.0 * (physical + artificial) + 8.0 * physical * d.smoothing_length / d.spacing;
   d.acoustic_time = numerics.courant * d.smoothing_length / d.sound_speed;
-  d.viscous_time = 0.125 * d.smoothing_length * d.smoothing_length / std::max(kinematic, 1e-30);
+  d.viscous_time = d.smoothing_length * d.smoothing_length / std::max(rate, 1e-30);
   d.least_time_step = 1e-3 * std::min(d.acoustic_time, d.viscous_time);
   return d;
 }

@@ -6,7 +6,7 @@
 namespace wavetank {
 
 template <class Real>
-KernelParameters<Real> kernel_parameters(const Case& scene, const Discretisation& d) {
+KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout, const Discretisation& d, int images) {
   const double h = d.smoothing_length, c = d.sound_speed, pi = std::acos(-1.0);
   const double scale = d.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
   const double physical =
@@ -44,15 +44,23 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Discretisation
   p.upper_x = real(d.upper.x() - d.origin.x());
   p.upper_y = real(d.upper.y() - d.origin.y());
   p.upper_z = real(d.upper.z() - d.origin.z());
+  const auto period = [&](int axis) {
+    return scene.tank.periodic[axis] ? real(layout.domain.max[axis] - layout.domain.min[axis]) : Real(0);
+  };
+  p.period_x = period(0);
+  p.period_y = period(1);
+  p.period_z = period(2);
   p.rim_z = d.splash_guard ? real(d.rim - d.origin.z()) : std::numeric_limits<Real>::max();
   p.cells_x = d.cells[0];
   p.cells_y = d.cells[1];
   p.cells_z = d.cells[2];
   p.cells = d.cells[0] * d.cells[1] * d.cells[2];
+  p.images = images;
+  p.repulsion = real(scene.numerics.walls.repulsion * 0.01 * c * c);
   return p;
 }
 
-template KernelParameters<float> kernel_parameters<float>(const Case&, const Discretisation&);
-template KernelParameters<double> kernel_parameters<double>(const Case&, const Discretisation&);
+template KernelParameters<float> kernel_parameters<float>(const Case&, const Layout&, const Discretisation&, int);
+template KernelParameters<double> kernel_parameters<double>(const Case&, const Layout&, const Discretisation&, int);
 
 }  // namespace wavetank

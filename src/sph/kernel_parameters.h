@@ -13,7 +13,7 @@ struct KernelParameters {
 };
 
 template <class Real>
-KernelParameters<Real> kernel_parameters(const Case& settled_case, const Discretisation& discretisation);
+KernelParameters<Real> kernel_parameters(const Case& settled_case, const Layout& layout, const Discretisation& discretisation, int images);
 
 /// Fields of the arrays, as common.cl has them.
 namespace field {
@@ -26,17 +26,26 @@ enum Wall {
   normal_x,
   normal_y,
   normal_z,
+  wall_owner,
+  area,
+  // of rectangles
   tangent_x,
   tangent_y,
   tangent_z,
-  area,
   half_along,
   half_across,
   gap_along,
   gap_across,
-  wall_count
+  rectangle_count,
+  // of triangles
+  corners = tangent_x,
+  triangle_count = corners + 9,
+  // of facets: three edges (2-D: one) of edge_count values each
+  edges = area
 };
-constexpr int load_count = 4;
+constexpr int edge_count = 8;
+constexpr int image_count = 37;
+constexpr int motion_count = 18;
 constexpr int wrench_count = 12;
 constexpr int watch_count = 2;
 constexpr int energy_count = 4;

@@ -8,6 +8,7 @@ namespace wavetank {
 /// Sorts particles by cell on the device and keeps where each cell's begin.
 class ParticleGrid {
  public:
+  ParticleGrid() = default;
   /// `options`: the build options every kernel of the solver shares.
   ParticleGrid(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, int cells, int particles);
 
@@ -19,7 +20,7 @@ class ParticleGrid {
   const compute::Buffer<int>& starts() const { return starts_; }
 
  private:
-  int cells_, particles_, blocks_;
+  int cells_ = 0, particles_ = 0, blocks_ = 0;
   compute::Buffer<int> counts_, starts_, cursors_, block_sums_, cell_of_, order_;
   compute::Kernel clear_, count_, scan_blocks_, scan_totals_, scan_starts_, scatter_, settle_, reorder_;
 };

@@ -6,22 +6,64 @@
 #include <limits>
 #include <sstream>
 
+#include "tank_images.h"
 #include "wavetank/common/error.h"
 #include "wavetank/sph/kernel_sources.h"
 
 namespace wavetank {
 namespace {
 
-std::string build_options(const Case& scene, bool use_double) {
+bool moves(const WallMotion& motion) {
+  return !(motion.velocity.isZero(0) && motion.angular_velocity.isZero(0) && motion.acceleration.isZero(0) &&
+           motion.angular_acceleration.isZero(0) && motion.surface_velocity.isZero(0));
+}
+
+WallKind kind_of(const WallCase& walls) {
+  if (walls.method == WallMethod::ghost || walls.elements == WallElements::facet) return WallKind::facets;
+  return walls.elements == WallElements::semi_analytical ? WallKind::triangles : WallKind::rectangles;
+}
+
+std::string build_options(const Case& scene, bool use_double, bool images, bool moving) {
   const NumericsCase& n = scene.numerics;
+  const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
   std::ostringstream options;
   options << "-DDIMENSIONS=" << scene.dimensions << " -DUSE_DOUBLE=" << use_double
           << " -DDIFFUSION_FOURTAKAS=" << (n.density_diffusion == DensityDiffusion::fourtakas)
           << " -DDIFFUSION_ANTUONO=" << (n.density_diffusion == DensityDiffusion::antuono)
           << " -DVISCOSITY_MORRIS=" << (n.viscosity_model == ViscosityModel::morris) << " -DNO_SLIP=" << (n.walls.slip == Slip::no_slip)
           << " -DCOLE=" << (n.equation_of_state == EquationOfState::cole)
-          << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped);
+          << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped)
+          << " -DFACETS=" << (kind_of(n.walls) == WallKind::facets) << " -DTRIANGLES=" << (kind_of(n.walls) == WallKind::triangles)
+          << " -DGHOSTS=" << (n.walls.method == WallMethod::ghost) << " -DIMAGES=" << images << " -DMOVING_WALLS=" << moving
+          << " -DSHEPARD_GEOMETRIC=" << (shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic)
+          << " -DSHEPARD_MONOLITHIC=" << (shepard == ShepardFactor::monolithic)
+          << " -DSHEPARD_VOLUMETRIC=" << (shepard == ShepardFactor::volumetric)
+          << " -DRENORMALISE_DIVERGENCE=" << n.walls.renormalise_divergence;
   return options.str();
+}
+
+/// The images as neighbours.cl reads them.
+template <class Real>
+std::vector<Real> image_values(const std::vector<TankImage>& images) {
+  std::vector<Real> values;
+  const auto add = [&values](double value) { values.push_back(static_cast<Real>(value)); };
+  const auto add_matrix = [&add](const Eigen::Matrix3d& matrix) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) add(matrix(row, column));
+  };
+  for (const TankImage& image : images) {
+    add_matrix(image.matrix);
+    for (int axis = 0; axis < 3; ++axis) add(image.offset[axis]);
+    add_matrix(image.velocity_matrix);
+    for (int axis = 0; axis < 3; ++axis) add(image.velocity_offset[axis]);
+    for (const TankPlane& plane : image.seen_near) {
+      for (int axis = 0; axis < 3; ++axis) add(plane.normal[axis]);
+      add(plane.offset);
+    }
+    add(image.mirrored ? 1.0 : 0.0);
+  }
+  if (values.empty()) values.push_back(Real(0));
+  return values;
 }
 
 int padded(int count) { return (count + 15) / 16 * 16; }
@@ -44,7 +86,6 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       count_(static_cast<int>(layout.particles.size())),
       stride_(padded(count_)),
       chunks_((count_ + field::reduce_chunk - 1) / field::reduce_chunk),
-      options_(build_options(scene, std::is_same_v<Real, double>)),
       sources_(kernel_sources()),
       state_(device, static_cast<std::size_t>(field::state_count) * stride_),
       spare_(device, static_cast<std::size_t>(field::state_count) * stride_),
@@ -53,11 +94,13 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
       id_(device, count_),
       spare_id_(device, count_),
-      grid_(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_),
-      walls_(device, layout.walls, discretisation),
-      closed_elements_(layout.walls),
-      owners_(device, walls_, centres, discretisation),
-      loads_(device, static_cast<std::size_t>(field::load_count) * walls_.stride),
+      kind_(kind_of(scene.numerics.walls)),
+      walls_(make_walls(layout)),
+      motions_(device, centres.size() * field::motion_count),
+      motion_centres_(device, 3 * centres.size()),
+      loads_(device, kind_ == WallKind::facets ? 1 : walls_.stride),
+      wrench_parts_(device, static_cast<std::size_t>(chunks_) * field::wrench_count),
+      wrench_(device, field::wrench_count),
       time_step_(device, 3),
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
@@ -65,14 +108,72 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       guard_hits_(device, count_),
       alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
       alarm_(device, field::alarm_count) {
-  closed_elements_.insert(closed_elements_.end(), layout.lid.begin(), layout.lid.end());
-  const KernelParameters<Real> parameters = kernel_parameters<Real>(case_, discretisation_);
+  centres_ = centres;
+  ghosts_ = scene.numerics.walls.method == WallMethod::ghost;
+  elements_ = kind_ != WallKind::facets;
+  closed_.walls = layout.walls;
+  closed_.facets = layout.facets;
+  closed_.triangles = layout.triangles;
+  closed_.lid = layout.lid;
+  const std::vector<TankImage> images = tank_images(case_, layout, discretisation_);
+  images_ = Buffer(device, image_values<Real>(images));
+  const KernelParameters<Real> parameters = kernel_parameters<Real>(case_, layout, discretisation_, static_cast<int>(images.size()));
   std::vector<char> bytes(sizeof parameters);
   std::memcpy(bytes.data(), &parameters, sizeof parameters);
   parameters_ = compute::Buffer<char>(device_, bytes);
+  options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), false);
+  grid_ = ParticleGrid(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_);
   build_kernels();
+  std::vector<WallMotion> motions(centres.size());
+  for (std::size_t b = 0; b < scene.bodies.size() && b + 1 < motions.size(); ++b)
+    motions[b + 1].surface_velocity = scene.bodies[b].surface_velocity;
+  set_wall_motions(motions);
   upload_particles(layout);
   stages_ = symplectic();
+}
+
+template <class Real>
+WallArrays<Real> SphSolver<Real>::make_walls(const Layout& layout) const {
+  if (kind_ == WallKind::rectangles) return WallArrays<Real>(device_, layout.walls, discretisation_);
+  return WallArrays<Real>(device_, kind_ == WallKind::facets ? layout.facets : layout.triangles, kind_, discretisation_);
+}
+
+template <class Real>
+WallArrays<Real> SphSolver<Real>::make_closed_walls(bool guarding) const {
+  if (kind_ == WallKind::rectangles) {
+    std::vector<WallElement> closed = closed_.walls;
+    closed.insert(closed.end(), closed_.lid.begin(), closed_.lid.end());
+    return WallArrays<Real>(device_, closed, discretisation_);
+  }
+  std::vector<Facet> closed = kind_ == WallKind::facets ? closed_.facets : closed_.triangles;
+  if (ghosts_ && !guarding) closed.clear();  // the ghosts themselves are the walls
+  for (const WallElement& element : closed_.lid) {
+    const std::vector<Facet> parts = facets_of(element, case_.dimensions);
+    closed.insert(closed.end(), parts.begin(), parts.end());
+  }
+  return WallArrays<Real>(device_, closed, kind_, discretisation_);
+}
+
+template <class Real>
+void SphSolver<Real>::set_wall_motions(const std::vector<WallMotion>& motions) {
+  std::vector<Real> values;
+  bool moving = false;
+  for (std::size_t o = 0; o < centres_.size(); ++o) {
+    const WallMotion& motion = motions.at(o);
+    moving = moving || moves(motion);
+    for (const Eigen::Vector3d& vector : {Eigen::Vector3d(centres_[o] - discretisation_.origin), motion.velocity, motion.angular_velocity,
+                                          motion.acceleration, motion.angular_acceleration, motion.surface_velocity})
+      for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(vector[axis]));
+  }
+  motions_.upload(values);
+  std::vector<Real> centres;
+  for (std::size_t o = 0; o < centres_.size(); ++o)
+    for (int axis = 0; axis < 3; ++axis) centres.push_back(values[o * field::motion_count + axis]);
+  motion_centres_.upload(centres);
+  if (moving && options_.find("-DMOVING_WALLS=0") != std::string::npos) {  // the first motion
+    options_.replace(options_.find("-DMOVING_WALLS=0"), std::strlen("-DMOVING_WALLS=0"), "-DMOVING_WALLS=1");
+    build_kernels();
+  }
 }
 
 template <class Real>
@@ -82,10 +183,10 @@ void SphSolver<Real>::build_kernels() {
     return compute::Program(device_, sources_, file, options).kernel(name);
   };
   continuity_kernel_ = sweep("continuity.cl", "continuity", fast);
-  momentum_kernel_ = sweep("momentum.cl", "momentum", fast);
+  momentum_kernel_ = sweep("momentum.cl", "momentum", fast + " -DWALL_FORCES=0");
+  forces_kernel_ = sweep("momentum.cl", "wall_forces", fast + " -DWALL_FORCES=1");
   gradient_kernel_ = sweep("density_gradient.cl", "density_gradient", fast);
-  loads_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=0");
-  shear_kernel_ = sweep("wall_loads.cl", "wall_loads", fast + " -DWITH_SHEAR=1");
+  if (elements_) loads_kernel_ = sweep("wall_loads.cl", "wall_loads", fast);
   packing_kernel_ = sweep("packing.cl", "packing", fast);
   guard_kernel_ = sweep("guard.cl", "guard", options_);
   const compute::Program points(device_, sources_, "points.cl", fast);
@@ -104,7 +205,7 @@ void SphSolver<Real>::build_kernels() {
   energy_sum_ = reduce.kernel("energy_total");
   packing_total_ = reduce.kernel("packing_total");
   wrench_chunks_ = reduce.kernel("wrench_chunks");
-  wrench_totals_ = reduce.kernel("wrench_totals");
+  wrench_total_ = reduce.kernel("wrench_total");
 }
 
 template <class Real>
@@ -131,26 +232,29 @@ void SphSolver<Real>::sort() {
 
 template <class Real>
 void SphSolver<Real>::load_walls(const Buffer& state) {
-  loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.fields, walls_.stride, loads_);
+  if (!elements_) return;  // a facet's pressure is that of the particle that feels it
+  loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
+                       walls_.stride, motions_, images_, loads_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates() {
   if (case_.numerics.density_diffusion == DensityDiffusion::antuono)
-    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, gradient_);
-  continuity_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.fields, walls_.stride,
-                            gradient_, rates_);
+    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, images_, gradient_);
+  continuity_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
+                            walls_.stride, motions_, images_, gradient_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(const Buffer& state) {
-  momentum_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.fields, walls_.stride, loads_,
-                          rates_);
+  momentum_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
+                          walls_.stride, motions_, images_, loads_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::guard() {
-  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.fields, walls_.stride, rates_, state_, stride_, guard_hits_);
+  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.list, walls_.fields, walls_.stride, motions_, images_, rates_,
+                       state_, stride_, guard_hits_);
 }
 
 template <class Real>
@@ -229,12 +333,14 @@ StepReport SphSolver<Real>::start() {
 template <class Real>
 PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
   PackingReport report;
-  const WallArrays<Real> closed(device_, closed_elements_, discretisation_);
+  const WallArrays<Real> closed = make_closed_walls(false);
+  const WallArrays<Real> of_guard = ghosts_ ? make_closed_walls(true) : WallArrays<Real>();
+  const WallArrays<Real>& guarded = ghosts_ ? of_guard : closed;
   Buffer total(device_, 2);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
-    packing_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, closed.starts, closed.fields, closed.stride,
-                           rates_);
+    packing_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, closed.starts, closed.list, closed.fields,
+                           closed.stride, motions_, images_, rates_);
     if (k % report_interval == 0 || k == iterations) {
       packing_total_.launch(1, count_, rates_, stride_, total);
       report.last_error = total.download()[0];
@@ -243,8 +349,9 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     }
     report.iterations = k;
     if (k == iterations) break;
-    move_packed_.launch(count_, count_, state_, stride_, rates_);
-    guard_kernel_.launch(count_, parameters_, count_, closed.starts, closed.fields, closed.stride, rates_, state_, stride_, guard_hits_);
+    move_packed_.launch(count_, parameters_, count_, state_, stride_, rates_);
+    guard_kernel_.launch(count_, parameters_, count_, guarded.starts, guarded.list, guarded.fields, guarded.stride, motions_, images_,
+                         rates_, state_, stride_, guard_hits_);
     sort();
   }
   return report;
@@ -266,8 +373,8 @@ std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::
 template <class Real>
 std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
-  points_kernel_.launch(points.count, parameters_, points.count, grid_.starts(), state_, stride_, walls_.starts, walls_.fields,
-                        walls_.stride, points.points, points.results);
+  points_kernel_.launch(points.count, parameters_, points.count, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
+                        walls_.stride, motions_, images_, points.points, points.results);
   const std::vector<Real> results = points.results.download();
   std::vector<PointValue> values(points.count);
   for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
@@ -276,20 +383,18 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
 
 template <class Real>
 std::vector<WallWrench> SphSolver<Real>::wrenches() {
-  std::vector<WallWrench> result(owners_.owners);
-  for (WallWrench& wrench : result) wrench.fill(Eigen::Vector3d::Zero());
-  if (walls_.count == 0) return result;
-  // pressures and shear at this instant; the step computes its own pressures in its middle
-  shear_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state_, stride_, walls_.fields, walls_.stride, loads_);
-  wrench_chunks_.launch(owners_.chunks, owners_.chunks, owners_.chunk_range, owners_.members, walls_.fields, walls_.stride, loads_,
-                        owners_.chunk_owner, owners_.centres, owners_.partial);
-  wrench_totals_.launch(owners_.owners, owners_.owners, owners_.owner_chunks, owners_.partial, owners_.total);
-  const std::vector<Real> total = owners_.total.download();
-  const bool slip = case_.numerics.walls.slip == Slip::no_slip;
-  for (int o = 0; o < owners_.owners; ++o)
+  std::vector<WallWrench> result(centres_.size());
+  load_walls(state_);  // at this instant; the step found its own in its middle
+  for (std::size_t owner = 0; owner < centres_.size(); ++owner) {
+    // the spare state is free between two sortings
+    forces_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
+                          walls_.stride, motions_, images_, loads_, static_cast<int>(owner), motion_centres_, spare_);
+    wrench_chunks_.launch(chunks_, count_, spare_, stride_, wrench_parts_);
+    wrench_total_.launch(1, chunks_, wrench_parts_, wrench_);
+    const std::vector<Real> total = wrench_.download();
     for (int part = 0; part < 4; ++part)
-      for (int axis = 0; axis < 3; ++axis)
-        if (part % 2 == 0 || slip) result[o][part][axis] = total[static_cast<std::size_t>(o) * field::wrench_count + 3 * part + axis];
+      for (int axis = 0; axis < 3; ++axis) result[owner][part][axis] = total[3 * part + axis];
+  }
   return result;
 }
 
@@ -309,8 +414,8 @@ template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
   Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
-  surface_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.fields, walls_.stride,
-                         results);
+  surface_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
+                         walls_.stride, motions_, images_, results);
   const std::vector<Real> surface = results.download();
   FluidState fluid;
   fluid.id = id_.download();

@@ -23,6 +23,7 @@ class SphSolver final : public Solver {
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override;
   StepReport start() override;
   StepReport advance() override;
+  void set_wall_motions(const std::vector<WallMotion>& motions) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
@@ -38,6 +39,9 @@ class SphSolver final : public Solver {
   struct DevicePoints;
 
   void build_kernels();
+  WallArrays<Real> make_walls(const Layout& layout) const;
+  /// The walls with the lid, as packing needs them; `guarding`: as its guard does.
+  WallArrays<Real> make_closed_walls(bool guarding) const;
   void upload_particles(const Layout& layout);
   std::vector<Stage> symplectic();
   void sort();
@@ -56,21 +60,26 @@ class SphSolver final : public Solver {
   std::string options_;
   compute::SourceFiles sources_;
   compute::Buffer<char> parameters_;
+  std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners
+  bool ghosts_ = false;
+  bool elements_ = false;       ///< the walls are elements, with a pressure of their own
   std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
   Buffer state_, spare_, half_, rates_, gradient_;
   compute::Buffer<std::uint32_t> id_, spare_id_;
   ParticleGrid grid_;
+  WallKind kind_;
   WallArrays<Real> walls_;
-  std::vector<WallElement> closed_elements_;  ///< walls and lid, for packing
-  WallOwners<Real> owners_;
+  Layout closed_;  ///< the walls and the lid alone, for packing
+  Buffer motions_, motion_centres_, images_;
   Buffer loads_;
+  Buffer wrench_parts_, wrench_;
   Buffer time_step_, watches_, energy_parts_, energy_total_;
   compute::Buffer<int> guard_hits_, alarms_, alarm_;
-  compute::Kernel continuity_kernel_, momentum_kernel_, gradient_kernel_, loads_kernel_, shear_kernel_, packing_kernel_, points_kernel_,
-      surface_kernel_, guard_kernel_;
+  compute::Kernel continuity_kernel_, momentum_kernel_, gradient_kernel_, loads_kernel_, packing_kernel_, points_kernel_, surface_kernel_,
+      guard_kernel_, forces_kernel_;
   compute::Kernel derive_, predict_, correct_, compress_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_,
       packing_total_;
-  compute::Kernel wrench_chunks_, wrench_totals_;
+  compute::Kernel wrench_chunks_, wrench_total_;
   std::vector<Stage> stages_;
 };
 

@@ -1,5 +1,6 @@
 #include "wall_arrays.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,75 +18,172 @@ int cell_of(const Eigen::Vector3d& relative, const Discretisation& d) {
   return (cell[2] * d.cells[1] + cell[1]) * d.cells[0] + cell[0];
 }
 
+/// Elements in the order of their cells, and where each cell's begin.
+struct CellOrder {
+  std::vector<int> order, begin;
+};
+
+CellOrder sorted_by_cell(const std::vector<Vector3d>& centres, const Discretisation& d) {
+  const int cells = d.cells[0] * d.cells[1] * d.cells[2];
+  CellOrder result;
+  std::vector<int> cell(centres.size());
+  result.order.resize(centres.size());
+  result.begin.assign(static_cast<std::size_t>(cells) + 1, 0);
+  for (std::size_t s = 0; s < centres.size(); ++s) {
+    cell[s] = cell_of(centres[s] - d.origin, d);
+    ++result.begin[cell[s] + 1];
+  }
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  std::iota(result.order.begin(), result.order.end(), 0);
+  std::stable_sort(result.order.begin(), result.order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
+  return result;
+}
+
+/// The fields of walls, filled one wall after the other.
+template <class Real>
+class Fields {
+ public:
+  Fields(int count, int stride, const Discretisation& d)
+      : stride_(stride), d_(d), values_(static_cast<std::size_t>(count) * stride, Real(0)) {}
+  void set(int field, int s, double value) { values_[static_cast<std::size_t>(field) * stride_ + s] = static_cast<Real>(value); }
+  void set_place(int field, int s, const Vector3d& place) { set_vector(field, s, place - d_.origin); }
+  void set_vector(int field, int s, const Vector3d& vector) {
+    for (int axis = 0; axis < 3; ++axis) set(field + axis, s, vector[axis]);
+  }
+  const std::vector<Real>& values() const { return values_; }
+
+ private:
+  int stride_;
+  const Discretisation& d_;
+  std::vector<Real> values_;
+};
+
+Vector3d middle_of(const Facet& facet, int dimensions) {
+  if (dimensions == 2) return 0.5 * (facet.corners[0] + facet.corners[1]);
+  return (facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3.0;
+}
+
+/// Which facets each cell's particles may touch: those nearer than the support to any point of the cell. As starts and list.
+CellOrder facets_by_cell(const std::vector<Facet>& facets, const Discretisation& d) {
+  const int cells = d.cells[0] * d.cells[1] * d.cells[2];
+  const double half_diagonal = 0.5 * d.support * std::sqrt(static_cast<double>(d.dimensions));
+  // particles drift by less than this between the sorting and the sweep that reads their cell
+  const double reach = 1.02 * d.support + half_diagonal;
+  std::vector<std::pair<int, int>> pairs;  // cell, facet
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (d.cells[axis] == 1) continue;
+      double least = facets[f].corners[0][axis], most = least;
+      for (const Vector3d& corner : facets[f].corners) {
+        least = std::min(least, corner[axis]);
+        most = std::max(most, corner[axis]);
+      }
+      const auto at = [&](double place) {
+        return std::clamp(static_cast<int>(std::floor((place - d.origin[axis]) / d.support)) + 1, 0, d.cells[axis] - 1);
+      };
+      low[axis] = at(least - 1.02 * d.support);
+      high[axis] = at(most + 1.02 * d.support);
+    }
+    for (int cz = low[2]; cz <= high[2]; ++cz)
+      for (int cy = low[1]; cy <= high[1]; ++cy)
+        for (int cx = low[0]; cx <= high[0]; ++cx) {
+          Vector3d centre = d.origin + d.support * Vector3d(cx - 0.5, cy - 0.5, cz - 0.5);
+          if (d.dimensions == 2) centre.y() = facets[f].corners[0].y();
+          const Vector3d nearest = nearest_on_triangle(centre, facets[f].corners[0], facets[f].corners[1], facets[f].corners[2]);
+          if ((nearest - centre).norm() <= reach) pairs.emplace_back((cz * d.cells[1] + cy) * d.cells[0] + cx, static_cast<int>(f));
+        }
+  }
+  std::stable_sort(pairs.begin(), pairs.end());
+  CellOrder result;
+  result.begin.assign(static_cast<std::size_t>(cells) + 1, 0);
+  for (const auto& [cell, facet] : pairs) {
+    ++result.begin[cell + 1];
+    result.order.push_back(facet);
+  }
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  return result;
+}
+
+/// Corners in the order in which they turn left about the normal.
+Facet turned_left(Facet facet, int dimensions) {
+  const Vector3d turn = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
+  if (dimensions == 3 && turn.dot(facet.normal) < 0) std::swap(facet.corners[1], facet.corners[2]);
+  return facet;
+}
+
+bool comes_first(const Vector3d& a, const Vector3d& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// Base, direction, length and sign of each edge: the first three are the edge's own, whichever of its two facets asks.
+template <class Real>
+void set_edges(const Facet& facet, int s, int dimensions, Fields<Real>& fields) {
+  for (int k = 0; k < (dimensions == 3 ? 3 : 1); ++k) {
+    const Vector3d from = facet.corners[k], to = facet.corners[(k + 1) % 3];
+    const bool forward = comes_first(from, to);
+    const int edge = field::edges + field::edge_count * k;
+    fields.set_place(edge, s, forward ? from : to);
+    fields.set_vector(edge + 3, s, (forward ? to - from : from - to).normalized());
+    fields.set(edge + 6, s, (to - from).norm());
+    if (dimensions == 3) fields.set(edge + 7, s, forward ? 1.0 : -1.0);
+  }
+}
+
 }  // namespace
 
 template <class Real>
 WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const Discretisation& d)
-    : count(static_cast<int>(elements.size())), stride(std::max(count, 1)) {
-  const int cells = d.cells[0] * d.cells[1] * d.cells[2];
-  std::vector<int> cell(elements.size()), order(elements.size()), begin(static_cast<std::size_t>(cells) + 1, 0);
-  for (std::size_t s = 0; s < elements.size(); ++s) {
-    cell[s] = cell_of(elements[s].centre - d.origin, d);
-    ++begin[cell[s] + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
-
-  std::vector<Real> values(static_cast<std::size_t>(field::wall_count) * stride, Real(0));
-  owner.resize(elements.size());
+    : count(static_cast<int>(elements.size())), stride(std::max(count, 1)), list(device, 1) {
+  std::vector<Vector3d> centres;
+  for (const WallElement& element : elements) centres.push_back(element.centre);
+  const CellOrder cells = sorted_by_cell(centres, d);
+  Fields<Real> values(field::rectangle_count, stride, d);
   for (int s = 0; s < count; ++s) {
-    const WallElement& element = elements[order[s]];
-    owner[s] = element.owner;
-    for (int axis = 0; axis < 3; ++axis) {
-      values[static_cast<std::size_t>(field::wall_x + axis) * stride + s] = static_cast<Real>(element.centre[axis] - d.origin[axis]);
-      values[static_cast<std::size_t>(field::normal_x + axis) * stride + s] = static_cast<Real>(element.normal[axis]);
-      values[static_cast<std::size_t>(field::tangent_x + axis) * stride + s] = static_cast<Real>(element.tangent[axis]);
-    }
-    const auto set = [&](int member, double value) { values[static_cast<std::size_t>(member) * stride + s] = static_cast<Real>(value); };
-    set(field::area, element.area);
-    set(field::half_along, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
-    set(field::half_across, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
-    set(field::gap_along, element.gap[0]);
-    set(field::gap_across, element.gap[1]);
+    const WallElement& element = elements[cells.order[s]];
+    values.set_place(field::wall_x, s, element.centre);
+    values.set_vector(field::normal_x, s, element.normal);
+    values.set(field::wall_owner, s, element.owner);
+    values.set_vector(field::tangent_x, s, element.tangent);
+    values.set(field::area, s, element.area);
+    values.set(field::half_along, s, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
+    values.set(field::half_across, s, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
+    values.set(field::gap_along, s, element.gap[0]);
+    values.set(field::gap_across, s, element.gap[1]);
   }
-  fields = compute::Buffer<Real>(device, values);
-  starts = compute::Buffer<int>(device, begin);
+  fields = compute::Buffer<Real>(device, values.values());
+  starts = compute::Buffer<int>(device, cells.begin);
 }
 
 template <class Real>
-WallOwners<Real>::WallOwners(const compute::Device& device, const WallArrays<Real>& walls, const std::vector<Eigen::Vector3d>& about,
-                             const Discretisation& d)
-    : owners(static_cast<int>(about.size())) {
-  std::vector<int> member_list, ranges, chunk_owners, first_chunks(1, 0);
-  for (int o = 0; o < owners; ++o) {
-    const int begin = static_cast<int>(member_list.size());
-    for (int s = 0; s < walls.count; ++s)
-      if (walls.owner[s] == o) member_list.push_back(s);
-    const int end = static_cast<int>(member_list.size());
-    for (int from = begin; from < end; from += field::reduce_chunk) {
-      ranges.push_back(from);
-      ranges.push_back(std::min(end, from + field::reduce_chunk));
-      chunk_owners.push_back(o);
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, WallKind kind, const Discretisation& d)
+    : count(static_cast<int>(facets.size())), stride(std::max(count, 1)), list(device, 1) {
+  const int edges = d.dimensions == 3 ? 3 : 1;
+  const bool whole = kind == WallKind::facets;
+  std::vector<Vector3d> centres;
+  for (const Facet& facet : facets) centres.push_back(middle_of(facet, d.dimensions));
+  const CellOrder cells = whole ? facets_by_cell(facets, d) : sorted_by_cell(centres, d);
+  Fields<Real> values(whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count), stride, d);
+  for (int s = 0; s < count; ++s) {
+    const int source = whole ? s : cells.order[s];
+    const Facet facet = turned_left(facets[source], d.dimensions);
+    values.set_vector(field::normal_x, s, facet.normal);
+    values.set(field::wall_owner, s, facet.owner);
+    values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
+    if (whole) {
+      set_edges(facet, s, d.dimensions, values);
+      continue;
     }
-    first_chunks.push_back(static_cast<int>(chunk_owners.size()));
+    const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
+    values.set(field::area, s, d.dimensions == 3 ? 0.5 * a.cross(b).norm() : a.norm());
+    for (int k = 0; k < 3; ++k) values.set_vector(field::corners + 3 * k, s, facet.corners[k] - centres[source]);
   }
-  chunks = static_cast<int>(chunk_owners.size());
-  std::vector<Real> centre_values;
-  for (const Eigen::Vector3d& centre : about)
-    for (int axis = 0; axis < 3; ++axis) centre_values.push_back(static_cast<Real>(centre[axis] - d.origin[axis]));
-  members = compute::Buffer<int>(device, member_list);
-  chunk_range = compute::Buffer<int>(device, ranges);
-  chunk_owner = compute::Buffer<int>(device, chunk_owners);
-  owner_chunks = compute::Buffer<int>(device, first_chunks);
-  centres = compute::Buffer<Real>(device, centre_values);
-  partial = compute::Buffer<Real>(device, static_cast<std::size_t>(chunks) * field::wrench_count);
-  total = compute::Buffer<Real>(device, static_cast<std::size_t>(owners) * field::wrench_count);
+  fields = compute::Buffer<Real>(device, values.values());
+  starts = compute::Buffer<int>(device, cells.begin);
+  if (whole && !cells.order.empty()) list = compute::Buffer<int>(device, cells.order);
 }
 
 template struct WallArrays<float>;
 template struct WallArrays<double>;
-template struct WallOwners<float>;
-template struct WallOwners<double>;
 
 }  // namespace wavetank

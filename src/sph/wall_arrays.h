@@ -8,34 +8,23 @@
 
 namespace wavetank {
 
-/// Wall elements sorted by the neighbour grid's cells, on the device. Walls that stand still are sorted once.
+/// What the walls are made of on the device: elements of about the spacing, sorted by the neighbour grid's cells, or facets of any size, of
+/// which each cell has a list.
+enum class WallKind { rectangles, triangles, facets };
+
+/// Walls on the device. Walls that stand still are sorted once.
 template <class Real>
 struct WallArrays {
   WallArrays() = default;
-  WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const Discretisation& discretisation);
+  WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const Discretisation& discretisation);
+  /// `kind`: triangles or facets.
+  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, WallKind kind, const Discretisation& discretisation);
 
   int count = 0;
   int stride = 0;
-  std::vector<int> owner;        ///< of each element, in the device's order
-  compute::Buffer<Real> fields;  ///< field::wall_count fields
-  compute::Buffer<int> starts;   ///< of each cell, one more than cells
-};
-
-/// The elements of each owner, in chunks that one work-item sums.
-template <class Real>
-struct WallOwners {
-  WallOwners() = default;
-  WallOwners(const compute::Device& device, const WallArrays<Real>& walls, const std::vector<Eigen::Vector3d>& centres,
-             const Discretisation& discretisation);
-
-  int owners = 0;
-  int chunks = 0;
-  compute::Buffer<int> members;      ///< element indices by owner
-  compute::Buffer<int> chunk_range;  ///< two a chunk: from, to in members
-  compute::Buffer<int> chunk_owner;
-  compute::Buffer<int> owner_chunks;  ///< owners + 1
-  compute::Buffer<Real> centres;      ///< x y z an owner, relative to the grid's origin
-  compute::Buffer<Real> partial, total;
+  compute::Buffer<Real> fields;  ///< as field::Wall has them for the kind
+  compute::Buffer<int> starts;   ///< of each cell, one more than cells: in the fields, or in the list
+  compute::Buffer<int> list;     ///< of facets by cell
 };
 
 }  // namespace wavetank

@@ -25,6 +25,7 @@ class ClockedFluid final : public Solver {
   PackingReport pack(int, const std::function<void(double)>&) override { return {}; }
   StepReport start() override { return {}; }
   StepReport advance() override { return {}; }
+  void set_wall_motions(const std::vector<WallMotion>&) override {}
   std::size_t particle_count() const override { return 0; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
     auto set = std::make_unique<Points>();

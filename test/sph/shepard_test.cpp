@@ -20,8 +20,8 @@ constexpr Reference flat_2d[] = {{0.01, 0.50743}, {0.05, 0.53708}, {0.125, 0.591
                                  {0.5, 0.82350},  {1.0, 0.97149},  {1.5, 0.99913}};
 constexpr Reference flat_3d[] = {{0.01, 0.50750}, {0.05, 0.53745}, {0.1, 0.574566}, {0.125, 0.59290},
                                  {0.25, 0.68093}, {0.5, 0.82758},  {1.0, 0.97461},  {1.5, 0.99940}};
-constexpr Reference edge_3d[] = {{0.1, 0.32976}, {0.5, 0.68368}};
-constexpr Reference corner_3d[] = {{0.1, 0.18939}, {0.5, 0.56377}};
+constexpr Reference edge_3d[] = {{0.1, 0.33006779}, {0.5, 0.68364294}};
+constexpr Reference corner_3d[] = {{0.1, 0.18958594}, {0.5, 0.56376664}};
 
 /// Elements of a wall through the origin over tangential coordinates in [from_a, to_a] × [from_b, to_b] elements; 2-D: a alone. Each is
 /// `narrow` times as wide along b as along a.

@@ -48,6 +48,9 @@ void check_closed(TriangleMesh& mesh);
 /// Whether a point lies inside a closed mesh (generalised winding number > 1/2: robust at edges and vertices).
 bool inside(const TriangleMesh& closed, const Vector3d& point);
 
+/// Closest point of a triangle, which may be no more than a segment.
+Vector3d nearest_on_triangle(const Vector3d& point, const Vector3d& a, const Vector3d& b, const Vector3d& c);
+
 /// Distance from a point to the nearest triangle, m.
 double distance(const TriangleMesh& mesh, const Vector3d& point);
 

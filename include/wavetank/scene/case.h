@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -53,6 +54,7 @@ struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
   bool splash_guard =
       true;  ///< spray above the rim is kept over the tank, as by smooth walls on its bounding box; else it is lost and the run stops
+  std::array<bool, 3> periodic{};  ///< along x, y, z: what leaves the tank's bounding box at one end comes in at the other
 };
 
 enum class Motion { fixed };
@@ -61,15 +63,16 @@ struct BodyCase {
   std::string name;
   std::variant<Box, MeshSource> shape;
   Motion motion = Motion::fixed;
+  Vector3d surface_velocity = Vector3d::Zero();  ///< m/s, of a belt: its surface runs while the body stands
 };
 
 enum class Scheme { delta_sph };
 enum class DensityDiffusion { none, fourtakas, antuono };
 enum class EquationOfState { linear, cole };
 enum class ViscosityModel { monaghan_gingold, morris };
-enum class WallMethod { boundary_integral };
-enum class ShepardFactor { geometric };
-enum class WallElements { numerical };
+enum class WallMethod { boundary_integral, ghost };
+enum class ShepardFactor { none, volumetric, monolithic, geometric };
+enum class WallElements { numerical, semi_analytical, facet };
 enum class Slip { no_slip, free_slip };
 enum class Shifting { none };
 enum class Integrator { symplectic };
@@ -82,7 +85,9 @@ struct WallCase {
   ShepardFactor shepard = ShepardFactor::geometric;
   WallElements elements = WallElements::numerical;
   Slip slip = Slip::no_slip;
-  double guard_distance = 0.1;  ///< of the spacing: nearer to a wall, a particle loses its approaching normal velocity; 0 = off
+  bool renormalise_divergence = true;  ///< divide the velocity's divergence by the Shepard factor, as the pressure's gradient
+  double repulsion = 0.0;              ///< of ghosts: short-range force as a multiple of (c₀/10)²; 0 = none
+  double guard_distance = 0.1;         ///< of the spacing: nearer to a wall, a particle loses its approaching normal velocity; 0 = off
 };
 
 struct PackingCase {

@@ -61,6 +61,15 @@ struct FluidEnergies {
 /// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.
 using WallWrench = std::array<Eigen::Vector3d, 4>;
 
+/// How an owner of walls moves, as far as the fluid feels it. SI units, about the owner's centre as given to make_solver.
+struct WallMotion {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();              ///< m/s
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();      ///< rad/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();          ///< m/s²
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< rad/s²
+  Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();      ///< m/s, of a belt; only its part along the surface acts
+};
+
 /// Particle state on the host, in the device's order. Positions in the case's coordinates.
 struct FluidState {
   std::vector<std::uint32_t> id;
@@ -84,6 +93,9 @@ class Solver {
   virtual StepReport start() = 0;
   /// One time step of the case's integrator.
   virtual StepReport advance() = 0;
+
+  /// Velocities and accelerations of the walls, one an owner, from the next step on. The walls' places stay.
+  virtual void set_wall_motions(const std::vector<WallMotion>& motions) = 0;
 
   virtual std::size_t particle_count() const = 0;
   virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;

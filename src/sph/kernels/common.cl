@@ -41,29 +41,16 @@ typedef struct {
 #define RATE_CLEARANCE 5      // distance to the nearest wall element, at the least
 #define RATE_COUNT 6
 
-// wall elements
-#define WALL_X 0
+// walls: fields that every kind has ...
+#define WALL_X 0              // the element's centre, or a point of the facet's plane
 #define WALL_Y 1
 #define WALL_Z 2
 #define WALL_NORMAL_X 3       // out of the fluid
 #define WALL_NORMAL_Y 4
 #define WALL_NORMAL_Z 5
-#define WALL_TANGENT_X 6
-#define WALL_TANGENT_Y 7
-#define WALL_TANGENT_Z 8
-#define WALL_AREA 9
-#define WALL_HALF_ALONG 10
-#define WALL_HALF_ACROSS 11
-#define WALL_GAP_ALONG 12
-#define WALL_GAP_ACROSS 13
-#define WALL_COUNT 14
-
-// what the fluid does to a wall element
-#define LOAD_PRESSURE 0
-#define LOAD_SHEAR_X 1        // viscosity × ∂u/∂n, tangential
-#define LOAD_SHEAR_Y 2
-#define LOAD_SHEAR_Z 3
-#define LOAD_COUNT 4
+#define WALL_OWNER 6
+// ... and what elements have, but facets not: these have their edges from here on
+#define WALL_AREA 7
 
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
 INLINE real kernel_value(__constant const parameters_t* p, real distance) {

@@ -1,15 +1,13 @@
 // Continuity of δ-SPH, eqs (33) and (36) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   ds/dt = −(1+s)/γ [Σ_j (u_j−u_i)·∇W V_j + Σ_s (u_s−u_i)·n W S] + diffusion,   s = ρ/ρ₀ − 1
-// One pass over the neighbours, γ included.
-#include "wall_element.cl"
+// One pass over the neighbours, the Shepard factor γ included.
+#include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
 typedef struct {
-  __global const real* state;
-  int stride;
-  __global const real* walls;
-  int wall_stride;
+  neighbours_t near;
+  const walls_t* walls;
 #if DIFFUSION_ANTUONO
   __global const real* gradient;
   real gradient_x, gradient_y, gradient_z;
@@ -20,17 +18,21 @@ typedef struct {
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  __global const real* state = a->state;
-  const int n = a->stride;
-  const real slope_volume = kernel_slope(p, sqrt(r2)) * state[FIELD_VOLUME * n + j];
-  real approach = (state[FIELD_U * n + j] - a->u) * rx + (state[FIELD_W * n + j] - a->w) * rz;
+  const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
+  const real distance = sqrt(r2);
+  const real slope_volume = kernel_slope(p, distance) * volume;
+  const vector_t velocity = neighbour_velocity(&a->near, j);
+  real approach = (velocity.x - a->u) * rx + (velocity.z - a->w) * rz;
 #if DIMENSIONS == 3
-  approach += (state[FIELD_V * n + j] - a->v) * ry;
+  approach += (velocity.y - a->v) * ry;
 #endif
   a->divergence += approach * slope_volume;
+#if SHEPARD_VOLUMETRIC
+  a->shepard += kernel_value(p, distance) * volume;
+#endif
 
 #if DIFFUSION_FOURTAKAS || DIFFUSION_ANTUONO
-  const real difference = state[FIELD_COMPRESSION * n + j] - a->compression;
+  const real difference = neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression;
 #endif
 #if DIFFUSION_FOURTAKAS
   // of the dynamic density only: what hydrostatics explains, linearised, is not diffused
@@ -40,33 +42,38 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
   a->diffusion += R(2.0) * slope_volume * (difference - explained);
 #elif DIFFUSION_ANTUONO
-  real explained = (a->gradient_x + a->gradient[j]) * rx + (a->gradient_z + a->gradient[2 * n + j]) * rz;
+  vector_t gradient = make_vector(a->gradient[j], a->gradient[a->near.stride + j], a->gradient[2 * a->near.stride + j]);
+#if GHOSTS
+  if (a->near.mirrored) gradient = turned(a->near.image + IMAGE_MATRIX, gradient.x, gradient.y, gradient.z);
+#endif
+  real explained = (a->gradient_x + gradient.x) * rx + (a->gradient_z + gradient.z) * rz;
 #if DIMENSIONS == 3
-  explained += (a->gradient_y + a->gradient[n + j]) * ry;
+  explained += (a->gradient_y + gradient.y) * ry;
 #endif
   a->diffusion += slope_volume * (R(2.0) * difference - explained);
 #endif
 }
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
-  const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
-  a->shepard += shepard_term(p, &view, r2);
-  const real normal_speed = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
-  a->divergence -= normal_speed * kernel_value(p, sqrt(r2)) * view.area;
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+#if SHEPARD_GEOMETRIC
+  a->shepard += c.shepard;
+#endif
+  const vector_t wall = wall_velocity(a->walls, s, c.normal, x + c.distance * c.normal.x, y + c.distance * c.normal.y, z + c.distance * c.normal.z);
+  a->divergence += dot3(make_vector(wall.x - a->u, wall.y - a->v, wall.z - a->w), c.normal) * c.weight;
 }
 
 #include "sweep.cl"
 
 __kernel void continuity(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                         __global const int* wall_start, __global const real* walls, int wall_stride, __global const real* gradient,
-                         __global real* rates) {
+                         WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.state = state;
-  a.stride = stride;
-  a.walls = walls;
-  a.wall_stride = wall_stride;
+  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+                         state[FIELD_Z * stride + i]);
+  a.walls = &walls;
 #if DIFFUSION_ANTUONO
   a.gradient = gradient;
   a.gradient_x = gradient[i];
@@ -77,13 +84,12 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
   a.compression = state[FIELD_COMPRESSION * stride + i];
-  a.shepard = R(1.0);
-  const real x = state[FIELD_X * stride + i];
-  const real y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
-  const real z = state[FIELD_Z * stride + i];
-  sweep_particles(&a, p, cell_start, state, stride, x, y, z);
-  sweep_walls(&a, p, wall_start, walls, wall_stride, x, y, z);
-  rates[RATE_COMPRESSION * stride + i] =
-      -(R(1.0) + a.compression) * a.divergence / bounded_shepard(a.shepard) + p->density_diffusion * a.diffusion;
+  a.shepard = SHEPARD_START;
+  sweep_particles(&a, p, cell_start, images);
+#if !GHOSTS
+  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+#endif
+  const real renormalise = RENORMALISE_DIVERGENCE ? R(1.0) / bounded_shepard(a.shepard) : R(1.0);
+  rates[RATE_COMPRESSION * stride + i] = -(R(1.0) + a.compression) * a.divergence * renormalise + p->density_diffusion * a.diffusion;
   rates[RATE_SHEPARD * stride + i] = a.shepard;
 }

@@ -1,18 +1,17 @@
 // The renormalised gradient of the compression, ⟨∇s⟩ = L Σ_j (s_j − s_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹, for Antuono's density diffusion.
-#include "common.cl"
+#include "walls.cl"
 #define SWEEP_PARTICLES
 
 typedef struct {
-  __global const real* state;
-  int stride;
+  neighbours_t near;
   real compression;
   real sum_x, sum_y, sum_z;
   real xx, xy, xz, yy, yz, zz;
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  const real slope_volume = kernel_slope(p, sqrt(r2)) * a->state[FIELD_VOLUME * a->stride + j];
-  const real weighted = slope_volume * (a->state[FIELD_COMPRESSION * a->stride + j] - a->compression);
+  const real slope_volume = kernel_slope(p, sqrt(r2)) * a->near.state[FIELD_VOLUME * a->near.stride + j];
+  const real weighted = slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression);
   a->sum_x += weighted * rx;
   a->sum_z += weighted * rz;
   a->xx += slope_volume * rx * rx;
@@ -29,15 +28,14 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #include "sweep.cl"
 
 __kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                               __global real* gradient) {
+                               __global const real* images, __global real* gradient) {
   const int i = get_global_id(0);
   if (i >= count) return;
   sweep_t a = {0};
-  a.state = state;
-  a.stride = stride;
+  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+                         state[FIELD_Z * stride + i]);
   a.compression = state[FIELD_COMPRESSION * stride + i];
-  sweep_particles(&a, p, cell_start, state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
-                  state[FIELD_Z * stride + i]);
+  sweep_particles(&a, p, cell_start, images);
 
   // a matrix that is nearly singular (a particle of a thin jet) has no gradient to trust: taken as zero
   const real least = R(1.0e-3);

@@ -1,34 +1,34 @@
 // Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
 // relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
 // open tank, where there is no wall, on the sides of the tank's bounding box.
-#include "wall_element.cl"
+#include "walls.cl"
 #define SWEEP_WALLS
 
 typedef struct {
-  __global const real* walls;
-  int wall_stride;
+  const walls_t* walls;
   real x, y, z;  // how far it was set back
   real u, v, w;
   int hits;
 } sweep_t;
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
-  // seen from where the elements before this one left the particle
-  const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx - a->x, ry - a->y, rz - a->z);
-  // behind a wall as far as half a spacing on the element itself, by no more than the guard distance beside it: there a body's own side may lie
-  const real deepest = view.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
-  if (beside_whole_wall(&view) > BORDER * p->spacing || view.distance > p->guard_distance || view.distance < deepest) return;
-  const real approach = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  // seen from where the walls before this one left the particle
+  const contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
+  // behind a wall as far as half a spacing on the wall itself, by no more than the guard distance beside it: there a body's own side may lie
+  const real deepest = c.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
+  if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest) return;
+  const vector_t wall = wall_velocity(a->walls, s, c.normal, x, y, z);
+  const real approach = (a->u - wall.x) * c.normal.x + (a->v - wall.y) * c.normal.y + (a->w - wall.z) * c.normal.z;
   if (approach > R(0.0)) {
-    a->u -= approach * view.normal_x;
-    a->v -= approach * view.normal_y;
-    a->w -= approach * view.normal_z;
+    a->u -= approach * c.normal.x;
+    a->v -= approach * c.normal.y;
+    a->w -= approach * c.normal.z;
     a->hits += 1;
   }
-  if (view.distance < R(0.0)) {
-    a->x += view.distance * view.normal_x;
-    a->y += view.distance * view.normal_y;
-    a->z += view.distance * view.normal_z;
+  if (c.distance < R(0.0)) {
+    a->x += c.distance * c.normal.x;
+    a->y += c.distance * c.normal.y;
+    a->z += c.distance * c.normal.z;
   }
 }
 
@@ -47,34 +47,37 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
   return held;
 }
 
-__kernel void guard(__constant const parameters_t* p, int count, __global const int* wall_start, __global const real* walls, int wall_stride,
-                    __global const real* rates, __global real* state, int stride, __global int* hits) {
+__kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS, __global const real* images, __global const real* rates, __global real* state, int stride, __global int* hits) {
   const int i = get_global_id(0);
   if (i >= count) return;
   hits[i] = 0;
   if (state[FIELD_Z * stride + i] > p->rim_z) {
     const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
-    const held_t x = hold_between(state[FIELD_X * stride + i], state[FIELD_U * stride + i], p->lower_x + margin, p->upper_x - margin, p->guard_distance);
-    state[FIELD_X * stride + i] += x.move;
-    state[FIELD_U * stride + i] = x.speed;
-    hits[i] = x.hit ? 1 : 0;
+    if (p->period_x == R(0.0)) {
+      const held_t x = hold_between(state[FIELD_X * stride + i], state[FIELD_U * stride + i], p->lower_x + margin, p->upper_x - margin, p->guard_distance);
+      state[FIELD_X * stride + i] += x.move;
+      state[FIELD_U * stride + i] = x.speed;
+      hits[i] = x.hit ? 1 : 0;
+    }
 #if DIMENSIONS == 3
-    const held_t y = hold_between(state[FIELD_Y * stride + i], state[FIELD_V * stride + i], p->lower_y + margin, p->upper_y - margin, p->guard_distance);
-    state[FIELD_Y * stride + i] += y.move;
-    state[FIELD_V * stride + i] = y.speed;
-    hits[i] |= y.hit ? 1 : 0;
+    if (p->period_y == R(0.0)) {
+      const held_t y = hold_between(state[FIELD_Y * stride + i], state[FIELD_V * stride + i], p->lower_y + margin, p->upper_y - margin, p->guard_distance);
+      state[FIELD_Y * stride + i] += y.move;
+      state[FIELD_V * stride + i] = y.speed;
+      hits[i] |= y.hit ? 1 : 0;
+    }
 #endif
   }
   if (p->guard_distance == R(0.0)) return;
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
   if (rates[RATE_CLEARANCE * stride + i] > p->guard_distance + R(0.25) * p->spacing) return;
   sweep_t a = {0};
-  a.walls = walls;
-  a.wall_stride = wall_stride;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  a.walls = &walls;
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
-  sweep_walls(&a, p, wall_start, walls, wall_stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  sweep_walls(&a, p, &walls, images, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
               state[FIELD_Z * stride + i]);
   hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;

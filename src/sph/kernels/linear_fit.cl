@@ -1,8 +1,6 @@
 // The fluid's pressure on a wall by a weighted linear fit. What hydrostatics explains is taken out first, and the slope that is left is fitted with a
 // small ridge, so that a few particles in a droplet give their average and many give the true slope: an average alone misses what an impact or a curved
 // stream adds towards a wall.
-#include "common.cl"
-
 typedef struct {
   real weight, pressure;          // Σ w, Σ w p
   real x, y, z;                   // Σ w r

@@ -1,45 +1,81 @@
 // Momentum of δ-SPH, eqs (35, its sign corrected) and (37) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   du/dt = −1/(γ ρ_i) [Σ_j (p_i+p_j) ∇W V_j + Σ_s (p_i+p_s) n W S − viscosity] + g
-// One pass over the neighbours, γ included.
-#include "wall_element.cl"
+// One pass over the neighbours, the Shepard factor γ included. On elements the wall's pressure p_s is the one found at their centre; facets have no
+// place for it, so there it is the average about the particle itself, p̄_i = Σ_j [p_j + ρ_j g·(x_i − x_j)] W V_j / Σ_j W V_j, carried on to the wall by gravity less the
+// wall's acceleration: ∫ p W dS = p̄_i ∫ W dS + ρ_i (g − a)·∫ (y − x_i) W dS. Not p_i itself: in 3-D tanks at rest that lets pressures oscillate until they
+// are a fifth of ρ g H.
+//
+// Built with WALL_FORCES, the same sums give what the fluid does to one owner of walls: of each particle's force all that is not an exchange with other
+// particles, V_i [(1/γ_i − 1) Σ_j … + 1/γ_i Σ_s …]. So the walls get exactly what the fluid loses, whatever the elements and the Shepard factor are.
+// (Σ_s alone, the walls' direct share, is 2 ln 2 = 1.39 times the pressure on a flat wall: dividing by γ makes the exchange between particles unequal.)
+#include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
 typedef struct {
-  __global const real* state;
-  int stride;
-  __global const real* walls;
-  int wall_stride;
+  neighbours_t near;
+  const walls_t* walls;
   __global const real* wall_loads;
-  real u, v, w, pressure;
-  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres
+  real u, v, w, pressure, density;
+  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
+#if FACETS
+  real average_weight, average_pressure;  // Σ W V, Σ [p_j + ρ_j g·(x_i − x_j)] W V
+#endif
+#if WALL_FORCES
+  int owner;
+  bool looking;          // only for whether the owner's walls are near
+  real weight, touched;  // Σ ∫ W dS over all walls and over the owner's
+  vector_t touched_at;   // Σ ∫ y W dS over the owner's
+  vector_t push, drag;   // of the owner's walls
+#endif
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  __global const real* state = a->state;
-  const int n = a->stride;
-  const real slope_volume = kernel_slope(p, sqrt(r2)) * state[FIELD_VOLUME * n + j];
-  const real du = state[FIELD_U * n + j] - a->u;
-  const real dw = state[FIELD_W * n + j] - a->w;
+  const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
+  const real distance = sqrt(r2);
+  const real slope_volume = kernel_slope(p, distance) * volume;
+#if SHEPARD_VOLUMETRIC || FACETS
+  const real weight = kernel_value(p, distance) * volume;
+#endif
+#if SHEPARD_VOLUMETRIC
+  a->shepard += weight;
+#endif
+  const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
+#if FACETS
+  a->average_weight += weight;
+  a->average_pressure += weight * (pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz));
+#endif
+  const vector_t velocity = neighbour_velocity(&a->near, j);
+  const real du = velocity.x - a->u;
+  const real dw = velocity.z - a->w;
 #if DIMENSIONS == 3
-  const real dv = state[FIELD_V * n + j] - a->v;
+  const real dv = velocity.y - a->v;
   const real approach = du * rx + dv * ry + dw * rz;
 #else
   const real approach = du * rx + dw * rz;
 #endif
-  const real inverse = R(1.0) / (r2 + R(0.01) * p->smoothing_length * p->smoothing_length);
+  // only against a division by zero: the 0.01 h² of [B] and [D] makes the viscosity 2 to 5 % too small
+  const real inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);
 #if VISCOSITY_MORRIS
   // isotropic for the physical viscosity (MLS paper, eq 14); the artificial one acts along the line of centres all the same
-  const real shear = R(2.0) * p->viscosity * slope_volume * r2 * inverse;
+  const real shear = R(2.0) * p->viscosity * slope_volume;
   a->viscous_x += shear * du;
   a->viscous_z += shear * dw;
 #if DIMENSIONS == 3
   a->viscous_y += shear * dv;
 #endif
 #endif
-  const real central = slope_volume * (a->pressure + state[FIELD_PRESSURE * n + j] - p->pair_viscosity * approach * inverse);
+#if WALL_FORCES
+  const real friction = slope_volume * p->pair_viscosity * approach * inverse;
+  a->viscous_x += friction * rx;
+  a->viscous_y += friction * ry;
+  a->viscous_z += friction * rz;
+  const real central = slope_volume * (a->pressure + pressure);
+#else
+  const real central = slope_volume * (a->pressure + pressure - p->pair_viscosity * approach * inverse);
+#endif
   a->force_x += central * rx;
   a->force_z += central * rz;
 #if DIMENSIONS == 3
@@ -47,57 +83,177 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 }
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
-  const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
-  a->shepard += shepard_term(p, &view, r2);
-  const real clearance = wall_clearance(p, &view);
+#if VISCOSITY_MORRIS
+#define WALL_DRAG R(1.0)
+#else
+#define WALL_DRAG ((DIMENSIONS + R(2.0)) / (DIMENSIONS + R(1.0)))
+#endif
+
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+#if WALL_FORCES
+  const bool own = a->owner == (int)a->walls->fields[WALL_OWNER * a->walls->stride + s];
+  if (own) a->touched += c.weight;
+  if (a->looking) return;
+  a->weight += c.weight;
+#endif
+#if SHEPARD_GEOMETRIC
+  a->shepard += c.shepard;
+#endif
+  const real clearance = wall_clearance(p, &c);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
-  const real weight = kernel_value(p, sqrt(r2)) * view.area;
-  const real normal_speed = a->u * view.normal_x + a->v * view.normal_y + a->w * view.normal_z;
-  const real push = (a->pressure + a->wall_loads[LOAD_PRESSURE * a->wall_stride + s]) * weight;
-  a->force_x += push * view.normal_x;
-  a->force_y += push * view.normal_y;
-  a->force_z += push * view.normal_z;
+  const real foot_x = x + c.distance * c.normal.x, foot_y = y + c.distance * c.normal.y, foot_z = z + c.distance * c.normal.z;
+#if FACETS
+  const real push = (a->pressure + a->average_pressure / a->average_weight) * c.weight +
+                    a->density * dot3(gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z), c.moment);
+#else
+  const real push = (a->pressure + a->wall_loads[s]) * c.weight;
+#endif
+  a->force_x += push * c.normal.x;
+  a->force_y += push * c.normal.y;
+  a->force_z += push * c.normal.z;
+#if WALL_FORCES
+  if (own) {
+    a->push = make_vector(a->push.x + push * c.normal.x, a->push.y + push * c.normal.y, a->push.z + push * c.normal.z);
+    // from where the particle is, also if the wall is an image's
+    a->touched_at = make_vector(a->touched_at.x + c.weight * a->near.x + c.moment.x, a->touched_at.y + c.weight * a->near.y + c.moment.y,
+                                a->touched_at.z + c.weight * a->near.z + c.moment.z);
+  }
+#endif
 #if NO_SLIP
-  // the velocity falls to the wall's over the distance from it; nearer than half a spacing that is taken as half a spacing
-  const real drag = R(2.0) * p->viscosity * weight / fmax(fabs(view.distance), R(0.5) * p->spacing);
-  a->viscous_x -= drag * (a->u - normal_speed * view.normal_x);
-  a->viscous_y -= drag * (a->v - normal_speed * view.normal_y);
-  a->viscous_z -= drag * (a->w - normal_speed * view.normal_z);
+  // the velocity falls to the wall's over the distance from it; nearer than half a spacing that is taken as half a spacing. In a uniform shear this balances
+  // what the particles on the other side exert, which for Monaghan and Gingold's sum is (d+2)/(d+1) times as much as for an isotropic one.
+  const vector_t wall = wall_velocity(a->walls, s, c.normal, foot_x, foot_y, foot_z);
+  const vector_t relative = make_vector(a->u - wall.x, a->v - wall.y, a->w - wall.z);
+  const real normal_speed = dot3(relative, c.normal);
+  const real drag = R(2.0) * WALL_DRAG * p->viscosity * c.weight / fmax(fabs(c.distance), R(0.5) * p->spacing);
+  a->viscous_x -= drag * (relative.x - normal_speed * c.normal.x);
+  a->viscous_y -= drag * (relative.y - normal_speed * c.normal.y);
+  a->viscous_z -= drag * (relative.z - normal_speed * c.normal.z);
+#if WALL_FORCES
+  if (own)
+    a->drag = make_vector(a->drag.x - drag * (relative.x - normal_speed * c.normal.x), a->drag.y - drag * (relative.y - normal_speed * c.normal.y),
+                          a->drag.z - drag * (relative.z - normal_speed * c.normal.z));
+#endif
 #endif
 }
 
+#if GHOSTS
+// Short-range repulsion by the foot of the particle on each plane ([D] §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
+// at a tenth of it.
+INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global const real* images) {
+  for (int k = 0; k < p->images; ++k) {
+    __global const real* image = images + k * IMAGE_COUNT;
+    if (image[IMAGE_MIRRORED] < R(0.5) || image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;
+    __global const real* plane = image + IMAGE_NEAR;
+    const real distance = plane[0] * a->near.x + plane[1] * a->near.y + plane[2] * a->near.z + plane[3];
+    const real reach = R(0.5) * p->spacing;
+    if (distance >= reach) continue;
+    const real d = fmax(distance, R(0.2) * reach);
+    const real ratio2 = reach * reach / (d * d);
+    const real force = p->repulsion * a->density * (ratio2 * ratio2 - ratio2) / d;
+    // n·x + o is the distance: n points into the fluid
+    a->viscous_x += force * plane[0];
+    a->viscous_y += force * plane[1];
+    a->viscous_z += force * plane[2];
+  }
+}
+#endif
+
 #include "sweep.cl"
 
-__kernel void momentum(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                       __global const int* wall_start, __global const real* walls, int wall_stride, __global const real* wall_loads,
-                       __global real* rates) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const real x = state[FIELD_X * stride + i];
-  const real y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
-  const real z = state[FIELD_Z * stride + i];
-
+INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
+                          __global const real* wall_loads) {
   sweep_t a = {0};
-  a.state = state;
-  a.stride = stride;
+  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+                         state[FIELD_Z * stride + i]);
   a.walls = walls;
-  a.wall_stride = wall_stride;
   a.wall_loads = wall_loads;
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
   a.pressure = state[FIELD_PRESSURE * stride + i];
-  a.shepard = R(1.0);
+  a.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
+  a.shepard = SHEPARD_START;
   a.clearance = p->support;
+  return a;
+}
 
-  sweep_particles(&a, p, cell_start, state, stride, x, y, z);
-  sweep_walls(&a, p, wall_start, walls, wall_stride, x, y, z);
+#if WALL_FORCES
+INLINE void write_vector(__global real* fields, int stride, int field, int i, vector_t v) {
+  fields[field * stride + i] = v.x;
+  fields[(field + 1) * stride + i] = v.y;
+  fields[(field + 2) * stride + i] = v.z;
+}
 
-  const real renormalise = R(1.0) / bounded_shepard(a.shepard);
-  const real per_mass = renormalise / (p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]));
+INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vector(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z); }
+
+// Per particle: pressure force, viscous force and their torques about the owner's centre.
+__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int owner, __global const real* centres,
+                          __global real* forces) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
+  sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
+  a.owner = owner;
+  vector_t push = nothing, drag = nothing, place = nothing;
+#if GHOSTS
+  sweep_ghosts(&a, p, cell_start, images);
+  add_repulsion(&a, p, images);
+  push = make_vector(a.force_x, a.force_y, a.force_z);
+  drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
+  place = make_vector(a.near.x, a.near.y, a.near.z);
+  const real share = R(1.0);
+#else
+  a.looking = true;
+  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+  real share = R(0.0);
+  if (a.touched > R(0.0)) {
+    a.looking = false;
+    a.touched = R(0.0);
+    sweep_particles(&a, p, cell_start, images);
+    const vector_t pair_push = make_vector(a.force_x, a.force_y, a.force_z);
+    const vector_t pair_drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
+    sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+    const real renormalise = R(1.0) / bounded_shepard(a.shepard);
+    const real unequal = (renormalise - R(1.0)) * a.touched / a.weight;  // each owner's part of the unequal exchange
+    push = mixed(renormalise, a.push, unequal, pair_push);
+    drag = mixed(-renormalise, a.drag, unequal, pair_drag);
+    const real inverse = R(1.0) / a.touched;
+    place = make_vector(a.touched_at.x * inverse, a.touched_at.y * inverse, a.touched_at.z * inverse);
+    share = R(1.0);
+  }
+#endif
+  const real volume = share * state[FIELD_VOLUME * stride + i];
+  push = mixed(volume, push, R(0.0), nothing);
+  drag = mixed(volume, drag, R(0.0), nothing);
+  const vector_t arm = make_vector(place.x - centres[3 * owner], place.y - centres[3 * owner + 1], place.z - centres[3 * owner + 2]);
+  write_vector(forces, stride, 0, i, push);
+  write_vector(forces, stride, 3, i, drag);
+  write_vector(forces, stride, 6, i, cross3(arm, push));
+  write_vector(forces, stride, 9, i, cross3(arm, drag));
+}
+#else
+__kernel void momentum(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+                       WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global real* rates) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
+  sweep_particles(&a, p, cell_start, images);
+#if GHOSTS
+  a.clearance = R(0.0);  // the guard looks for itself
+  add_repulsion(&a, p, images);
+#else
+  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+#endif
+
+  const real per_mass = R(1.0) / (bounded_shepard(a.shepard) * a.density);
   rates[RATE_U * stride + i] = (a.viscous_x - a.force_x) * per_mass + p->gravity_x;
   rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (a.viscous_y - a.force_y) * per_mass + p->gravity_y : R(0.0);
   rates[RATE_W * stride + i] = (a.viscous_z - a.force_z) * per_mass + p->gravity_z;
   rates[RATE_CLEARANCE * stride + i] = a.clearance;
 }
+#endif

@@ -1,20 +1,18 @@
 // Packing before the start: x ← x − 0.1 h² E with the zeroth-order error E = Σ_j ∇W V_j + Σ_s n W S, walls and lid in it. Positions only; the lattice is
 // not an equilibrium of the boundary integrals, and would ring the tank.
-#include "wall_element.cl"
+#include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
 typedef struct {
-  __global const real* state;
-  int stride;
-  __global const real* walls;
-  int wall_stride;
+  neighbours_t near;
+  const walls_t* walls;
   real error_x, error_y, error_z;
   real clearance;
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  const real slope_volume = kernel_slope(p, sqrt(r2)) * a->state[FIELD_VOLUME * a->stride + j];
+  const real slope_volume = kernel_slope(p, sqrt(r2)) * a->near.state[FIELD_VOLUME * a->near.stride + j];
   a->error_x += slope_volume * rx;
   a->error_z += slope_volume * rz;
 #if DIMENSIONS == 3
@@ -22,13 +20,12 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 }
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real rx, real ry, real rz, real r2) {
-  const wall_view_t view = view_wall(p, a->walls, a->wall_stride, s, rx, ry, rz);
-  const real weight = kernel_value(p, sqrt(r2)) * view.area;
-  a->error_x += weight * view.normal_x;
-  a->error_y += weight * view.normal_y;
-  a->error_z += weight * view.normal_z;
-  const real clearance = wall_clearance(p, &view);
+INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+  a->error_x += c.weight * c.normal.x;
+  a->error_y += c.weight * c.normal.y;
+  a->error_z += c.weight * c.normal.z;
+  const real clearance = wall_clearance(p, &c);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
 }
 
@@ -36,20 +33,17 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real r
 
 // The displacement of one iteration, written as rates over a unit of time; RATE_COMPRESSION holds h |E|, for the report.
 __kernel void packing(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                      __global const int* wall_start, __global const real* walls, int wall_stride, __global real* rates) {
+                      WALL_ARGUMENTS, __global const real* images, __global real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.state = state;
-  a.stride = stride;
-  a.walls = walls;
-  a.wall_stride = wall_stride;
+  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+                         state[FIELD_Z * stride + i]);
+  a.walls = &walls;
   a.clearance = p->support;
-  const real x = state[FIELD_X * stride + i];
-  const real y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
-  const real z = state[FIELD_Z * stride + i];
-  sweep_particles(&a, p, cell_start, state, stride, x, y, z);
-  sweep_walls(&a, p, wall_start, walls, wall_stride, x, y, z);
+  sweep_particles(&a, p, cell_start, images);
+  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);  // with ghosts: the lid and what the guard needs
   const real size = sqrt(a.error_x * a.error_x + a.error_y * a.error_y + a.error_z * a.error_z);
   const real h = p->smoothing_length;
   // no further than a tenth of the spacing at once: on a coarse curved wall E is large at first

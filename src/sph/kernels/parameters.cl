@@ -30,8 +30,13 @@ real lower_z;
 real upper_x;
 real upper_y;
 real upper_z;
+real period_x;            // of a periodic tank, else 0
+real period_y;
+real period_z;
 real rim_z;               // above it, the splash guard keeps particles over the tank
 int cells_x;              // grid dimensions, a border of one empty cell included in each
 int cells_y;
 int cells_z;
 int cells;                // their product
+int images;               // of the tank: periodic shifts and ghosts
+real repulsion;           // of ghosts, (m/s)²: short-range force by the wall

@@ -150,51 +150,24 @@ __kernel void packing_total(int count, __global const real* rates, int stride, _
   total[1] = greatest;
 }
 
-// Force and torque on each owner of walls. chunk_range[2c], [2c+1] give chunk c's elements in `members`, all of one owner, owners in order.
+// Force and torque on one owner of walls, from what each particle does to it: pressure force, viscous force, pressure torque, viscous torque.
 #define WRENCH_COUNT 12
 
-__kernel void wrench_chunks(int chunks, __global const int* chunk_range, __global const int* members, __global const real* walls, int wall_stride,
-                            __global const real* loads, __global const int* chunk_owner, __global const real* centres, __global real* wrenches) {
+__kernel void wrench_chunks(int count, __global const real* forces, int stride, __global real* wrenches) {
   const int chunk = get_global_id(0);
-  if (chunk >= chunks) return;
-  const int owner = chunk_owner[chunk];
-  real sums[WRENCH_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
-  for (int k = chunk_range[2 * chunk]; k < chunk_range[2 * chunk + 1]; ++k) {
-    const int s = members[k];
-    const real area = walls[WALL_AREA * wall_stride + s];
-    const real arm_x = walls[WALL_X * wall_stride + s] - centres[3 * owner];
-    const real arm_y = walls[WALL_Y * wall_stride + s] - centres[3 * owner + 1];
-    const real arm_z = walls[WALL_Z * wall_stride + s] - centres[3 * owner + 2];
-    for (int part = 0; part < 2; ++part) {
-      real fx, fy, fz;
-      if (part == 0) {
-        const real push = loads[LOAD_PRESSURE * wall_stride + s] * area;
-        fx = push * walls[WALL_NORMAL_X * wall_stride + s];
-        fy = push * walls[WALL_NORMAL_Y * wall_stride + s];
-        fz = push * walls[WALL_NORMAL_Z * wall_stride + s];
-      } else {
-        fx = loads[LOAD_SHEAR_X * wall_stride + s] * area;
-        fy = loads[LOAD_SHEAR_Y * wall_stride + s] * area;
-        fz = loads[LOAD_SHEAR_Z * wall_stride + s] * area;
-      }
-      sums[3 * part] += fx;
-      sums[3 * part + 1] += fy;
-      sums[3 * part + 2] += fz;
-      sums[6 + 3 * part] += arm_y * fz - arm_z * fy;
-      sums[6 + 3 * part + 1] += arm_z * fx - arm_x * fz;
-      sums[6 + 3 * part + 2] += arm_x * fy - arm_y * fx;
-    }
+  if (chunk * REDUCE_CHUNK >= count) return;
+  for (int k = 0; k < WRENCH_COUNT; ++k) {
+    real sum = R(0.0), rest = R(0.0);
+    for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) add_compensated(forces[k * stride + i], &sum, &rest);
+    wrenches[chunk * WRENCH_COUNT + k] = sum;
   }
-  for (int k = 0; k < WRENCH_COUNT; ++k) wrenches[chunk * WRENCH_COUNT + k] = sums[k];
 }
 
-// owner_chunks[o] … owner_chunks[o+1] are the owner's chunks. totals: pressure force, viscous force, pressure torque, viscous torque.
-__kernel void wrench_totals(int owners, __global const int* owner_chunks, __global const real* wrenches, __global real* totals) {
-  const int owner = get_global_id(0);
-  if (owner >= owners) return;
+__kernel void wrench_total(int chunks, __global const real* wrenches, __global real* total) {
+  if (get_global_id(0) != 0) return;
   for (int k = 0; k < WRENCH_COUNT; ++k) {
-    real sum = R(0.0);
-    for (int chunk = owner_chunks[owner]; chunk < owner_chunks[owner + 1]; ++chunk) sum += wrenches[chunk * WRENCH_COUNT + k];
-    totals[owner * WRENCH_COUNT + k] = sum;
+    real sum = R(0.0), rest = R(0.0);
+    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(wrenches[chunk * WRENCH_COUNT + k], &sum, &rest);
+    total[k] = sum;
   }
 }

@@ -50,6 +50,19 @@ INLINE void move(__global real* state, int stride, int axis, int i, real displac
   *position = sum;
 }
 
+// What leaves a periodic tank at one end comes in at the other. The rest of the compensated sum goes with it.
+INLINE void wrap(__constant const parameters_t* p, __global real* state, int stride, int i) {
+  const real period[3] = {p->period_x, p->period_y, p->period_z};
+  const real lower[3] = {p->lower_x, p->lower_y, p->lower_z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (period[axis] == R(0.0)) continue;
+    __global real* position = state + (FIELD_X + axis) * stride + i;
+    const real start = lower[axis] + R(0.5) * p->spacing;  // the watchdog's box is larger by this
+    if (*position < start) *position += period[axis];
+    if (*position >= start + period[axis]) *position -= period[axis];
+  }
+}
+
 // The kick, and the second drift of the positions; compressions wait at the middle for the continuity of the new positions and velocities.
 __kernel void correct(__constant const parameters_t* p, int count, __global real* state, __global const real* half_state, int stride,
                       __global const real* rates, __global const real* time_step) {
@@ -65,6 +78,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     state[(FIELD_U + axis) * stride + i] = after;
     move(state, stride, axis, i, R(0.5) * step * (before + after));
   }
+  wrap(p, state, stride, i);
   derive(p, state, stride, i, half_state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
 }
 
@@ -77,12 +91,13 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
   derive(p, state, stride, i, compression, state[FIELD_MASS * stride + i]);
 }
 
-// One iteration of packing: the rates hold displacements..
-__kernel void move_packed(int count, __global real* state, int stride, __global const real* rates) {
+// One iteration of packing: the rates hold displacements.
+__kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, int stride, __global const real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
   for (int axis = 0; axis < 3; ++axis) {
     state[(FIELD_X + axis) * stride + i] += rates[(RATE_U + axis) * stride + i];
     state[(FIELD_U + axis) * stride + i] = R(0.0);
   }
+  wrap(p, state, stride, i);
 }

@@ -1,0 +1,196 @@
+// Facets: the mesh's own flat triangles (2-D: segments) of any size, integrated exactly over the part within the support. In the facet's plane, with
+// the point's foot as the centre, ∫ n·(y−x) Φ dS = d Σ_edges ∫ [G(d) − G(ρ)] dϕ and ∫ W dS = Σ_edges ∫ [H(d) − H(ρ)] dϕ, where G' = −Φ ρ, H' = −W ρ, both
+// zero from 2h on, and ϕ turns with the edge about the foot. With t along the edge and p its distance from the foot, dϕ = p dt/(p² + t²) and
+// p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and six Gauss points give them to 2e-5; the singular part of Φ gives an
+// angle. Lengths below are in units of h.
+#if DIMENSIONS == 3
+#define WALL_EDGES 7          // three times: base x, y, z, direction x, y, z, length, sign
+#define EDGE_COUNT 8
+#else
+#define WALL_EDGES 7          // base x, y, z, direction x, y, z, length
+#endif
+
+// Distances below this are as good as zero: far below what a coordinate resolves, but enough to keep the angles defined.
+#define LEAST_HEIGHT R(1.0e-6)
+
+#if DIMENSIONS == 3
+__constant real gauss_place[6] = {R(-0.932469514203), R(-0.661209386466), R(-0.238619186083), R(0.238619186083), R(0.661209386466), R(0.932469514203)};
+__constant real gauss_weight[6] = {R(0.171324492379), R(0.360761573048), R(0.467913934573), R(0.467913934573), R(0.360761573048), R(0.171324492379)};
+
+// Coefficients of H and of the polynomial part of G by powers of ρ.
+#define H0 R(0.119366207319)
+#define H2 R(-0.208890862808)
+#define H4 R(0.261113578510)
+#define H5 R(-0.208890862808)
+#define H6 R(0.0652783946274)
+#define H7 R(-0.00746038795742)
+#define G0 R(0.119366207319)
+#define G2 R(-0.0696302876026)
+#define G4 R(0.0522227157020)
+#define G5 R(-0.0348151438013)
+#define G6 R(0.00932548494678)
+#define G7 R(-0.000932548494678)
+#define QUARTER_PI_INVERSE R(0.0795774715459)
+
+INLINE real height_integral(real q) {
+  const real q2 = q * q;
+  return H0 + q2 * (H2 + q2 * (H4 + q * (H5 + q * (H6 + q * H7))));
+}
+
+INLINE real potential_integral(real q) {
+  const real q2 = q * q;
+  return G0 + q2 * (G2 + q2 * (G4 + q * (G5 + q * (G6 + q * G7))));
+}
+
+// The angle of the cone over a right triangle: from the foot along p to the edge, and along it by t.
+INLINE real cone_angle(real d, real p, real t) {
+  const real rho = sqrt(d * d + p * p + t * t);
+  return arctangent(t * p * (rho - d), p * p * rho + d * t * t);
+}
+
+// Signed angle at the foot from (p, from) to (p, to).
+INLINE real plane_angle(real p, real from, real to) { return whole_arctangent(p * (to - from), p * p + from * to); }
+
+typedef struct {
+  real shepard, weight, moment;
+} edge_t;
+
+INLINE edge_t edge_terms(real d, real p, real from, real to) {
+  edge_t e;
+  const real chord2 = R(4.0) - d * d - p * p;
+  const real chord = sqrt(fmax(chord2, R(0.0)));
+  const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
+  real outside = plane_angle(p, from, to);
+  real weight = R(0.0), potential = R(0.0), moment = R(0.0);
+  real cone = R(0.0);
+  if (b > a) {
+    outside = plane_angle(p, from, a) + plane_angle(p, b, to);
+    cone = cone_angle(d, p, b) - cone_angle(d, p, a);
+    const real half_length = R(0.5) * (b - a), middle = R(0.5) * (a + b);
+    const real d2 = d * d;
+    for (int k = 0; k < 6; ++k) {
+      const real t = middle + half_length * gauss_place[k];
+      const real rho2 = d2 + p * p + t * t;
+      const real rho = sqrt(rho2);
+      const real inverse = R(1.0) / (d + rho);
+      const real s3 = rho2 + d * (rho + d);
+      const real s5 = rho2 * rho2 + d * rho2 * rho + d2 * s3;
+      const real s7 = rho2 * rho2 * rho2 + d * rho2 * rho2 * rho + d2 * s5;
+      const real s4 = d2 + rho2, s6 = d2 * s4 + rho2 * rho2;
+      weight -= gauss_weight[k] * (H2 + H4 * s4 + H6 * s6 + inverse * (H5 * s5 + H7 * s7));
+      potential -= gauss_weight[k] * (G2 + G4 * s4 + G6 * s6 + inverse * (G5 * s5 + G7 * s7));
+      moment += gauss_weight[k] * height_integral(rho);
+    }
+    weight *= half_length * p;
+    potential *= half_length * p;
+    moment *= half_length;
+  }
+  e.weight = weight + height_integral(d) * outside;
+  e.shepard = d * potential - QUARTER_PI_INVERSE * cone + (d * potential_integral(d) - QUARTER_PI_INVERSE) * outside;
+  e.moment = moment;
+  return e;
+}
+#else
+__constant real gauss_place[5] = {R(-0.906179845939), R(-0.538469310106), R(0.0), R(0.538469310106), R(0.906179845939)};
+__constant real gauss_weight[5] = {R(0.236926885056), R(0.478628670499), R(0.568888888889), R(0.478628670499), R(0.236926885056)};
+
+// α of W in units of h; H as in 3-D.
+#define SCALE R(0.557042300822)
+INLINE real height_integral(real q) {
+  const real q2 = q * q;
+  return SCALE * (R(0.285714285714) + q2 * (R(-0.5) + q2 * (R(0.625) + q * (R(-0.5) + q * (R(0.15625) + q * R(-0.0178571428571))))));
+}
+
+typedef struct {
+  real weight, potential;
+} part_t;
+
+// ∫ W dt and ∫ of the polynomial part of Φ over [from, to], on one side of the foot.
+INLINE part_t part_of_segment(real d, real from, real to) {
+  part_t part = {R(0.0), R(0.0)};
+  const real half_length = R(0.5) * (to - from), middle = R(0.5) * (from + to);
+  for (int k = 0; k < 5; ++k) {
+    const real t = middle + half_length * gauss_place[k];
+    const real q2 = d * d + t * t;
+    const real q = sqrt(q2);
+    const real u = fmax(R(1.0) - R(0.5) * q, R(0.0));
+    part.weight += gauss_weight[k] * u * u * u * u * (R(1.0) + R(2.0) * q);
+    part.potential += gauss_weight[k] * (R(8.0) + q2 * (R(-10.0) + q * (R(8.0) + q * (R(-2.5) + q * R(0.285714285714)))));
+  }
+  part.weight *= SCALE * half_length;
+  part.potential *= R(0.0348151438013) * half_length;
+  return part;
+}
+#endif
+
+INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  __global const real* fields = walls->fields;
+  const int n = walls->stride;
+  contact_t c;
+  c.normal = make_vector(fields[WALL_NORMAL_X * n + s], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y * n + s] : R(0.0), fields[WALL_NORMAL_Z * n + s]);
+  c.distance = c.normal.x * (fields[WALL_X * n + s] - x) + c.normal.z * (fields[WALL_Z * n + s] - z);
+  if (DIMENSIONS == 3) c.distance += c.normal.y * (fields[WALL_Y * n + s] - y);
+  c.weight = R(0.0);
+  c.shepard = R(0.0);
+  c.moment = make_vector(R(0.0), R(0.0), R(0.0));
+  c.beside = p->support;
+  c.over = false;
+  const real height = c.distance * p->inverse_smoothing;
+  const real d = fmax(fabs(height), LEAST_HEIGHT);
+  if (d >= R(2.0)) return c;
+  real shepard = R(0.0), along_x = R(0.0), along_y = R(0.0), along_z = R(0.0);
+#if DIMENSIONS == 3
+  real from[3], to[3], beside[3];
+  vector_t out[3];
+  for (int k = 0; k < 3; ++k) {
+    const int field = WALL_EDGES + EDGE_COUNT * k;
+    const real bx = (fields[field * n + s] - x) * p->inverse_smoothing;
+    const real by = (fields[(field + 1) * n + s] - y) * p->inverse_smoothing;
+    const real bz = (fields[(field + 2) * n + s] - z) * p->inverse_smoothing;
+    const vector_t way = make_vector(fields[(field + 3) * n + s], fields[(field + 4) * n + s], fields[(field + 5) * n + s]);
+    const real sign = fields[(field + 7) * n + s];
+    // the base and the direction belong to the edge, not to the facet, so that the two facets that share it see exactly opposite distances
+    const vector_t across = cross3(way, c.normal);
+    out[k] = make_vector(sign * across.x, sign * across.y, sign * across.z);
+    beside[k] = -(out[k].x * bx + out[k].y * by + out[k].z * bz);
+    from[k] = way.x * bx + way.y * by + way.z * bz;
+    to[k] = from[k] + fields[(field + 6) * n + s] * p->inverse_smoothing;
+  }
+  const real farthest = fmax(fmax(beside[0], beside[1]), beside[2]);
+  c.beside = farthest * p->smoothing_length;
+  c.over = farthest <= R(0.0);
+  if (farthest * farthest >= R(4.0) - d * d && farthest > R(0.0)) return c;
+  for (int k = 0; k < 3; ++k) {
+    const edge_t e = edge_terms(d, -beside[k], from[k], to[k]);
+    shepard += e.shepard;
+    c.weight += e.weight;
+    along_x -= e.moment * out[k].x;
+    along_y -= e.moment * out[k].y;
+    along_z -= e.moment * out[k].z;
+  }
+#else
+  const real bx = (fields[WALL_EDGES * n + s] - x) * p->inverse_smoothing, bz = (fields[(WALL_EDGES + 2) * n + s] - z) * p->inverse_smoothing;
+  const real wx = fields[(WALL_EDGES + 3) * n + s], wz = fields[(WALL_EDGES + 5) * n + s];
+  const real from = wx * bx + wz * bz;
+  const real to = from + fields[(WALL_EDGES + 6) * n + s] * p->inverse_smoothing;
+  const real farthest = fmax(from, -to);
+  c.beside = farthest * p->smoothing_length;
+  c.over = farthest <= R(0.0);
+  const real chord = sqrt(R(4.0) - d * d);
+  const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
+  if (b <= a) return c;
+  const real middle = fmin(fmax(R(0.0), a), b);  // W and Φ have odd powers of the distance: no Gauss points across the foot
+  const part_t left = part_of_segment(d, a, middle), right = part_of_segment(d, middle, b);
+  c.weight = left.weight + right.weight;
+  shepard = d * (left.potential + right.potential) - R(0.159154943092) * (arctangent(b, d) - arctangent(a, d));
+  const real moment = height_integral(sqrt(d * d + a * a)) - height_integral(sqrt(d * d + b * b));
+  along_x = moment * wx;
+  along_z = moment * wz;
+#endif
+  const bool in_front = height >= R(0.0) || (c.over && c.distance > -BEHIND_TOLERANCE * p->spacing);
+  c.shepard = in_front ? shepard : -shepard;
+  const real depth = height * c.weight;
+  c.moment = make_vector(along_x + depth * c.normal.x, along_y + depth * c.normal.y, along_z + depth * c.normal.z);
+  c.weight *= p->inverse_smoothing;
+  return c;
+}

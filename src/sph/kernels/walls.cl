@@ -1,0 +1,177 @@
+// Walls as a point sees them. Each kind of wall (rectangles, triangles, facets) is a file that gives touch_wall(): all integrals over one element or
+// facet, from which every sweep takes what it needs.
+#include "neighbours.cl"
+
+typedef struct {
+  __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
+  __global const int* list;
+  __global const real* fields;
+  int stride;
+  __global const real* motions;
+} walls_t;
+
+// The arguments of a kernel that sweeps walls.
+#define WALL_ARGUMENTS                                                                                                             \
+  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
+      __global const real *wall_motions
+#define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions}
+
+typedef struct {
+  vector_t normal;   // out of the fluid
+  real distance;     // of the point from the wall's plane, positive on the fluid's side
+  real weight;       // ∫ W dS
+  vector_t moment;   // ∫ (y − x) W dS
+  real shepard;      // ∫ n·(y − x) Φ dS
+  real beside;       // how far the point's foot lies beside the wall; negative or zero on it
+  bool over;         // it lies on it
+} contact_t;
+
+// Points this far behind a wall that they stand over count as lying on its fluid side: rounding and the guard's own tolerance; far above the
+// float32 resolution of the coordinates, and γ is continuous across the plane.
+#define BEHIND_TOLERANCE R(0.25)  // of the spacing
+
+// Two elements that meet both count as under a point this near to their border, so that rounding leaves no point between them.
+#define BORDER R(0.01)  // of the spacing
+
+// Nearer than this, the angle under which an element is seen is taken at this distance, or the rounding of a border would be as large as the distance
+// and the angles of two neighbours would not add up; down to half of it behind the plane, the point lies in the plane.
+#define LEAST_DISTANCE R(2.0e-3)  // of the spacing
+
+// atan2(y, x) for x ≥ 0. In float32 by a polynomial of our own, fitted at Chebyshev nodes, error below 1.1e-7: the library's function is a call, which
+// keeps the loop over the wall elements from being vectorised.
+INLINE real arctangent(real y, real x) {
+#if USE_DOUBLE
+  return atan2(y, x);
+#else
+  const real size = fabs(y);
+  const real t = fmin(size, x) / fmax(fmax(size, x), 1.0e-30f);
+  const real u = t * t;
+  real sum = 0.00283411056f;
+  sum = sum * u - 0.0160052898f;
+  sum = sum * u + 0.042588171f;
+  sum = sum * u - 0.0749550797f;
+  sum = sum * u + 0.106367926f;
+  sum = sum * u - 0.142025837f;
+  sum = sum * u + 0.199924859f;
+  sum = sum * u - 0.33333067f;
+  sum = sum * u + 0.999999984f;
+  const real angle = size > x ? 1.57079632679f - t * sum : t * sum;
+  return y < 0.0f ? -angle : angle;
+#endif
+}
+
+// The same for any x.
+INLINE real whole_arctangent(real y, real x) {
+  const real angle = arctangent(y, fabs(x));
+  const real half_turn = R(3.14159265359);
+  return x < R(0.0) ? (y < R(0.0) ? -half_turn - angle : half_turn - angle) : angle;
+}
+
+// The polynomial part of Φ at q, and what its second tangential derivatives are made of: value'/q and (value'' − value'/q)/q², all to be scaled.
+typedef struct {
+  real value, slope, bend, scale;
+} potential_t;
+
+INLINE potential_t potential_polynomial(__constant const parameters_t* p, real r2) {
+  const real q = fmax(sqrt(r2) * p->inverse_smoothing, R(1.0e-6));
+  potential_t f;
+#if DIMENSIONS == 3
+  f.value = R(5.33333333333) + q * q * (R(-8.0) + q * (R(6.66666666667) + q * (R(-2.14285714286) + q * R(0.25))));
+  f.slope = R(-16.0) + q * (R(20.0) + q * (R(-8.57142857143) + q * R(1.25)));
+  f.bend = R(20.0) / q + R(-17.1428571429) + q * R(3.75);
+  f.scale = R(0.0261113579) * p->inverse_smoothing * p->inverse_smoothing * p->inverse_smoothing;
+#else
+  f.value = R(8.0) + q * q * (R(-10.0) + q * (R(8.0) + q * (R(-2.5) + q * R(0.285714285714))));
+  f.slope = R(-20.0) + q * (R(24.0) + q * (R(-10.0) + q * R(1.42857142857)));
+  f.bend = R(24.0) / q + R(-20.0) + q * R(4.28571428571);
+  f.scale = R(0.0348151439) * p->inverse_smoothing * p->inverse_smoothing;
+#endif
+  return f;
+}
+
+#if SHEPARD_MONOLITHIC
+// Φ itself at the element's centre, singular part and all ([C] eq 8 by the midpoint rule): for comparison.
+INLINE real monolithic_potential(__constant const parameters_t* p, real r2) {
+  const real q = fmax(sqrt(r2) * p->inverse_smoothing, R(1.0e-6));
+  const potential_t f = potential_polynomial(p, r2);
+#if DIMENSIONS == 3
+  const real inverse3 = p->inverse_smoothing * p->inverse_smoothing * p->inverse_smoothing;
+  return f.scale * f.value - R(0.0795774715459) * inverse3 / (q * q * q);
+#else
+  return f.scale * f.value - R(0.159154943092) * p->inverse_smoothing * p->inverse_smoothing / (q * q);
+#endif
+}
+#endif
+
+// On which side of an element's plane a point counts, from 1 in front to −1 behind.
+INLINE real side_of(__constant const parameters_t* p, real distance, bool over) {
+  if (over && distance > -BEHIND_TOLERANCE * p->spacing) return R(1.0);
+  return fmin(fmax(R(3.0) + R(4.0) * distance / (LEAST_DISTANCE * p->spacing), R(-1.0)), R(1.0));
+}
+
+#if FACETS
+#include "wall_facet.cl"
+#elif TRIANGLES
+#include "wall_triangle.cl"
+#else
+#include "wall_rectangle.cl"
+#endif
+
+// How near the point is to the wall, at the least: what the guard asks. Beside a wall it counts too, for a point that comes round an edge.
+INLINE real wall_clearance(__constant const parameters_t* p, const contact_t* c) {
+  if (c->over) return c->distance > -BEHIND_TOLERANCE * p->spacing ? c->distance : p->support;
+  return fmax(fabs(c->distance), c->beside);
+}
+
+// γ exceeds 1 or vanishes only by quadrature error, the volumetric one by disorder: bounded, and the callers count how often.
+#define SHEPARD_LEAST R(0.05)
+INLINE real bounded_shepard(real shepard) {
+#if SHEPARD_VOLUMETRIC
+  return fmax(shepard, SHEPARD_LEAST);
+#else
+  return fmin(fmax(shepard, SHEPARD_LEAST), R(1.0));
+#endif
+}
+
+// Where the sum of the Shepard factor begins, and whether walls add to it.
+#if SHEPARD_VOLUMETRIC
+#define SHEPARD_START R(0.0)
+#else
+#define SHEPARD_START R(1.0)
+#endif
+
+// Motion of the walls' owners: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
+#define MOTION_COUNT 18
+
+INLINE vector_t motion_vector(__global const real* motion, int which) { return make_vector(motion[3 * which], motion[3 * which + 1], motion[3 * which + 2]); }
+
+// The wall's velocity at the point (x, y, z) of it.
+INLINE vector_t wall_velocity(const walls_t* walls, int s, vector_t normal, real x, real y, real z) {
+#if MOVING_WALLS
+  __global const real* motion = walls->motions + MOTION_COUNT * (int)walls->fields[WALL_OWNER * walls->stride + s];
+  const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
+  const vector_t turn = cross3(motion_vector(motion, 2), arm);
+  const vector_t belt = motion_vector(motion, 5);
+  const real off = dot3(belt, normal);
+  return make_vector(motion[3] + turn.x + belt.x - off * normal.x, motion[4] + turn.y + belt.y - off * normal.y,
+                     motion[5] + turn.z + belt.z - off * normal.z);
+#else
+  return make_vector(R(0.0), R(0.0), R(0.0));
+#endif
+}
+
+// Gravity as the wall at the point (x, y, z) feels it: less the wall's acceleration.
+INLINE vector_t gravity_at_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  vector_t g = make_vector(p->gravity_x, p->gravity_y, p->gravity_z);
+#if MOVING_WALLS
+  __global const real* motion = walls->motions + MOTION_COUNT * (int)walls->fields[WALL_OWNER * walls->stride + s];
+  const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
+  const vector_t spin = motion_vector(motion, 2);
+  const vector_t turn = cross3(motion_vector(motion, 4), arm);
+  const vector_t inwards = cross3(spin, cross3(spin, arm));
+  g.x -= motion[9] + turn.x + inwards.x;
+  g.y -= motion[10] + turn.y + inwards.y;
+  g.z -= motion[11] + turn.z + inwards.z;
+#endif
+  return g;
+}

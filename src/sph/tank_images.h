@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "wavetank/geometry/layout.h"
+#include "wavetank/sph/discretisation.h"
+
+namespace wavetank {
+
+/// A plane, with its normal into the fluid: normal · x + offset is the distance from it, m.
+struct TankPlane {
+  Vector3d normal = Vector3d::Zero();
+  double offset = 0;
+};
+
+/// An image x' = matrix x + offset of the tank's particles: a shift by periods, or a reflection in planes at right angles (a ghost).
+struct TankImage {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  Vector3d offset = Vector3d::Zero();  ///< m
+  Eigen::Matrix3d velocity_matrix = Eigen::Matrix3d::Identity();
+  Vector3d velocity_offset = Vector3d::Zero();  ///< m/s
+  std::array<TankPlane, 3> seen_near;  ///< by particles nearer than the support to all of these; a plane without a normal is always near
+  bool mirrored = false;
+};
+
+/// The planes of a tank's own walls, each once. Throws Error unless the tank is convex and its planes are parallel or at right angles.
+std::vector<TankPlane> tank_planes(const Layout& layout);
+
+/// All images that a case's particles can see; none for a case that is neither periodic nor walled by ghosts. Coordinates are the device's.
+/// Throws Error for what ghosts cannot do, and for a tank narrower than the kernel's support between images.
+std::vector<TankImage> tank_images(const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
+
+}  // namespace wavetank

@@ -1,0 +1,157 @@
+// Flow between two plates, 40 particles across, in a tank that repeats itself along x: Poiseuille's, driven by a body force, and Couette's,
+// by a plate that runs. Start-up and steady state against their series, for every kind of wall.
+#include <algorithm>
+#include <utility>
+
+#include "sph_fixture.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double height = 1, viscosity = 0.1, density = 1, top_speed = 1;  // Reynolds number 10
+constexpr int across = 40;
+const double pi = std::acos(-1.0);
+
+struct Walls {
+  const char* name;
+  WallMethod method;
+  WallElements elements;
+  ViscosityModel model;
+  double tolerance;  ///< of the greatest speed
+};
+
+/// A channel along x between z = 0 and `height`; at its top the tank's wall, or a plate.
+Case channel(const Walls& walls, bool plate) {
+  Case scene;
+  scene.dimensions = 2;
+  scene.gravity = Vector3d::Zero();
+  scene.duration = 1;
+  scene.fluid.density = density;
+  scene.fluid.viscosity = viscosity;
+  scene.fluid.sound_speed = 10 * top_speed;
+  scene.fluid.spacing = height / across;
+  const double length = 16 * *scene.fluid.spacing;
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(length, 0, height)}};
+  scene.tank.shape = BoxTank{Vector3d(length, 0, plate ? 1.2 * height : height), Vector3d::Zero(), true};
+  scene.tank.periodic = {true, false, false};
+  scene.numerics.walls.method = walls.method;
+  scene.numerics.walls.elements = walls.elements;
+  scene.numerics.viscosity_model = walls.model;
+  scene.numerics.artificial_viscosity = 0;
+  scene.numerics.negative_pressure = NegativePressure::allowed;
+  if (plate) {
+    BodyCase body;
+    body.name = "plate";
+    body.shape = Box{Vector3d(0, 0, height), Vector3d(length, 0, 1.2 * height)};
+    body.surface_velocity = Vector3d(top_speed, 0, 0);
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+/// Speed at height z and time t after the start, from rest.
+double poiseuille(double z, double t) {
+  const double force = 8 * viscosity * top_speed / (height * height);
+  double speed = 4 * top_speed * z * (height - z) / (height * height);
+  for (int n = 1; n < 400; n += 2)
+    speed -= 4 * force * height * height / (viscosity * std::pow(n * pi, 3)) * std::sin(n * pi * z / height) *
+             std::exp(-std::pow(n * pi / height, 2) * viscosity * t);
+  return speed;
+}
+
+double couette(double z, double t) {
+  double speed = top_speed * z / height;
+  for (int n = 1; n < 400; ++n)
+    speed += 2 * top_speed / (n * pi) * std::pow(-1, n) * std::sin(n * pi * z / height) *
+             std::exp(-std::pow(n * pi / height, 2) * viscosity * t);
+  return speed;
+}
+
+/// Differences of the layers' speed, layers as thick as the spacing, from what it should be; relative to the greatest speed.
+class Layers {
+ public:
+  void add(const FluidState& fluid, double time, double (*exact)(double, double)) {
+    for (std::size_t i = 0; i < fluid.id.size(); ++i) {
+      const int layer = std::clamp(static_cast<int>(fluid.position[i].z() / height * across), 0, across - 1);
+      difference_[layer] += (fluid.velocity[i].x() - exact(fluid.position[i].z(), time)) / top_speed;
+      members_[layer] += 1;
+    }
+  }
+  double mean() const {
+    double sum = 0;
+    for (int layer = 0; layer < across; ++layer) sum += std::pow(error(layer), 2);
+    return std::sqrt(sum / across);
+  }
+  double greatest() const {
+    double most = 0;
+    for (int layer = 0; layer < across; ++layer) most = std::max(most, std::abs(error(layer)));
+    return most;
+  }
+
+ private:
+  double error(int layer) const { return difference_[layer] / std::max(members_[layer], 1.0); }
+  std::vector<double> difference_ = std::vector<double>(across, 0.0), members_ = difference_;
+};
+
+/// Start-up at three instants, and the steady state as the mean over many: single instants are disordered by then.
+void compare(const char* flow, const Walls& walls, Tank& tank, double (*exact)(double, double)) {
+  tank.pack_and_start(100);
+  double time = 0, step = tank.discretisation.acoustic_time;
+  const auto advance_to = [&](double until) {
+    while (time + 0.5 * step < until) {
+      const StepReport report = tank.solver->advance();
+      if (report.offender >= 0) throw Error("a particle is lost at t = " + std::to_string(time) + " s.");
+      time += step;
+      step = report.time_step;
+    }
+  };
+  const auto check = [&](const Layers& layers, const char* when) {
+    std::printf("%-10s %-28s %-12s error of the speed %.2f %% (greatest %.2f %%)\n", flow, walls.name, when, 100 * layers.mean(),
+                100 * layers.greatest());
+    EXPECT_LT(layers.mean(), walls.tolerance) << flow << ", " << walls.name << ", " << when;
+    EXPECT_LT(layers.greatest(), 2 * walls.tolerance) << flow << ", " << walls.name << ", " << when;
+  };
+  for (const auto& [until, when] : {std::make_pair(0.5, "t = 0.5 s"), std::make_pair(1.0, "t = 1 s"), std::make_pair(2.0, "t = 2 s")}) {
+    advance_to(until);
+    Layers layers;
+    layers.add(tank.solver->download(), time, exact);
+    check(layers, when);
+  }
+  Layers steady;
+  for (double until = 6; until < 8; until += 0.1) {
+    advance_to(until);
+    steady.add(tank.solver->download(), time, exact);
+  }
+  check(steady, "t = 6-8 s");
+}
+
+constexpr auto integral = WallMethod::boundary_integral;
+constexpr auto isotropic = ViscosityModel::morris;
+constexpr auto central = ViscosityModel::monaghan_gingold;
+const Walls every_kind[] = {{"numerical", integral, WallElements::numerical, isotropic, 0.01},
+                            {"numerical, monaghan_gingold", integral, WallElements::numerical, central, 0.02},
+                            {"semi_analytical", integral, WallElements::semi_analytical, isotropic, 0.01},
+                            {"facet", integral, WallElements::facet, isotropic, 0.01},
+                            {"facet, monaghan_gingold", integral, WallElements::facet, central, 0.02},
+                            {"ghost", WallMethod::ghost, WallElements::facet, isotropic, 0.01},
+                            {"ghost, monaghan_gingold", WallMethod::ghost, WallElements::facet, central, 0.04}};
+
+TEST(ChannelFlow, Poiseuille) {
+  for (const Walls& walls : every_kind) {
+    Case scene = channel(walls, false);
+    scene.gravity = Vector3d(8 * viscosity * top_speed / (density * height * height), 0, 0);
+    Tank tank(scene);
+    compare("Poiseuille", walls, tank, poiseuille);
+  }
+}
+
+TEST(ChannelFlow, Couette) {
+  for (const Walls& walls : every_kind) {
+    if (walls.method == WallMethod::ghost) continue;  // its walls are the tank's alone, and stand
+    Tank tank(channel(walls, true));
+    compare("Couette", walls, tank, couette);
+  }
+}
+
+}  // namespace
+}  // namespace wavetank
