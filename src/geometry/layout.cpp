@@ -199,10 +199,8 @@ void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const Tria
       const std::vector<Facet> facets = face_facets(from, static_cast<int>(p), open, grid, layout.spacing, dimensions);
       to.insert(to.end(), facets.begin(), facets.end());
     };
-    if (kind.method == WallMethod::ghost || kind.elements == WallElements::facet)
-      add(dimensions == 2 ? whole_facets(parts[p].outline, layout.spacing) : whole_facets(parts[p].mesh), layout.facets);
-    else if (kind.elements == WallElements::semi_analytical)
-      add(patches, layout.triangles);
+    add(dimensions == 2 ? whole_facets(parts[p].outline, layout.spacing) : whole_facets(parts[p].mesh), layout.facets);
+    if (kind.elements == WallElements::semi_analytical) add(patches, layout.triangles);
   }
 }
 

@@ -1,52 +1,176 @@
 #include "wavetank/geometry/thin_walls.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
-#include <vector>
 
 namespace wavetank {
 namespace {
 
+constexpr double opposite = -0.8;  // cosine of the normals of two walls that stand back to back
 constexpr double rounding = 1e-3;
-constexpr double opposite = -0.8;  // cosine of the normals of two elements that stand back to back
+
+/// Looks through walls: along the normal, out of the fluid, for a facet that faces the other way.
+class Looker {
+ public:
+  Looker(const Layout& layout, int dimensions, double thickness)
+      : facets_(layout.facets), dimensions_(dimensions), thickness_((1 - rounding) * thickness), tolerance_(1e-4 * layout.spacing) {
+    for (const Facet& facet : facets_) {
+      Box box{facet.corners[0], facet.corners[0]};
+      for (const Vector3d& corner : facet.corners) {
+        box.min = box.min.cwiseMin(corner);
+        box.max = box.max.cwiseMax(corner);
+      }
+      boxes_.push_back(box);
+    }
+  }
+
+  /// How thick the wall is behind a place; none if it is thicker than asked.
+  std::optional<double> look(const Vector3d& place, const Vector3d& normal) const {
+    std::optional<double> least;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      const Facet& facet = facets_[f];
+      const double facing = facet.normal.dot(normal);
+      if (facing > opposite) continue;
+      const double depth = facet.normal.dot(facet.plane_point - place) / facing;
+      if (depth < -tolerance_ || depth > std::min(thickness_, least.value_or(thickness_))) continue;
+      const Vector3d hit = place + depth * normal;
+      if (((hit - boxes_[f].min).array() < -tolerance_).any() || ((hit - boxes_[f].max).array() > tolerance_).any()) continue;
+      if (covers(facet, hit)) least = std::max(depth, 0.0);
+    }
+    return least;
+  }
+
+ private:
+  bool covers(const Facet& facet, const Vector3d& point) const {
+    if (dimensions_ == 2) return true;  // the bounding box has said so
+    const Vector3d turn = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d edge = facet.corners[(k + 1) % 3] - facet.corners[k];
+      if (turn.normalized().dot(edge.cross(point - facet.corners[k])) < -tolerance_ * edge.norm()) return false;
+    }
+    return true;
+  }
+
+  const std::vector<Facet>& facets_;
+  std::vector<Box> boxes_;
+  int dimensions_;
+  double thickness_, tolerance_;
+};
+
+/// Points all over a facet, a few an edge.
+std::vector<Vector3d> places_on(const Facet& facet, int dimensions) {
+  constexpr int fineness = 6;
+  std::vector<Vector3d> places;
+  for (int i = 0; i < fineness; ++i) {
+    if (dimensions == 2) {
+      places.push_back(facet.corners[0] + (i + 0.5) / fineness * (facet.corners[1] - facet.corners[0]));
+      continue;
+    }
+    for (int k = 0; i + k < fineness; ++k) {
+      const double a = (i + 1.0 / 3) / fineness, b = (k + 1.0 / 3) / fineness;
+      places.push_back(facet.corners[0] + a * (facet.corners[1] - facet.corners[0]) + b * (facet.corners[2] - facet.corners[0]));
+    }
+  }
+  return places;
+}
+
+/// A rim's width: its extent along the normal of the plate.
+double extent_along(const Facet& facet, const Vector3d& direction) {
+  double least = direction.dot(facet.corners[0]), most = least;
+  for (const Vector3d& corner : facet.corners) {
+    least = std::min(least, direction.dot(corner));
+    most = std::max(most, direction.dot(corner));
+  }
+  return most - least;
+}
+
+/// Whether a facet is a rim of the plate that a thin facet is a face of: it stands on the face's edge and is as narrow as the plate.
+bool is_rim(const Facet& facet, const Facet& face, double thickness, double tolerance) {
+  if (facet.owner != face.owner || std::abs(facet.normal.dot(face.normal)) > 0.5 || extent_along(facet, face.normal) > thickness)
+    return false;
+  int shared = 0;
+  for (const Vector3d& corner : facet.corners) {
+    const Vector3d nearest = nearest_on_triangle(corner, face.corners[0], face.corners[1], face.corners[2]);
+    shared += (nearest - corner).norm() < tolerance ? 1 : 0;
+  }
+  return shared >= 1;
+}
+
+/// The free edges of thin facets. Neighbours share both ends of an edge; a sheet's two sides are no neighbours.
+std::vector<Brim> find_brims(const Layout& layout, const std::vector<bool>& thin, int dimensions) {
+  const double tolerance = 1e-3 * layout.spacing;
+  const auto same = [&](const Vector3d& a, const Vector3d& b) { return (a - b).norm() < tolerance; };
+  std::vector<Brim> brims;
+  for (std::size_t f = 0; f < layout.facets.size(); ++f) {
+    if (!thin[f]) continue;
+    const Facet& facet = layout.facets[f];
+    const int ends = dimensions == 2 ? 2 : 3;
+    for (int k = 0; k < ends; ++k) {
+      Brim brim;
+      brim.from = facet.corners[k];
+      brim.to = dimensions == 2 ? brim.from : facet.corners[(k + 1) % 3];
+      brim.face_normal = facet.normal;
+      const Vector3d opposite_corner = dimensions == 2 ? facet.corners[1 - k] : facet.corners[(k + 2) % 3];
+      Vector3d inwards = opposite_corner - brim.from;
+      if (dimensions == 3) {
+        const Vector3d way = (brim.to - brim.from).normalized();
+        inwards -= way.dot(inwards) * way;
+      }
+      brim.inwards = inwards.normalized();
+      bool goes_on = false, stands_on_wall = false;
+      const Vector3d middle = 0.5 * (brim.from + brim.to);
+      for (std::size_t g = 0; g < layout.facets.size() && !goes_on && !stands_on_wall; ++g) {
+        if (g == f) continue;
+        const Facet& other = layout.facets[g];
+        int shared = 0;
+        for (int c = 0; c < ends; ++c) shared += same(other.corners[c], brim.from) || same(other.corners[c], brim.to) ? 1 : 0;
+        const bool neighbours = other.owner == facet.owner && shared >= (dimensions == 2 ? 1 : 2);
+        if (neighbours && thin[g]) {
+          const double facing = other.normal.dot(facet.normal);
+          if (facing < opposite) continue;  // the sheet's other side
+          goes_on = facing > 1 - 1e-9;
+          brim.has_other = true;
+          brim.other_normal = other.normal;
+          continue;
+        }
+        stands_on_wall = same(nearest_on_triangle(middle, other.corners[0], other.corners[1], other.corners[2]), middle) && !thin[g];
+      }
+      if (!goes_on && !stands_on_wall) brims.push_back(brim);
+    }
+  }
+  return brims;
+}
 
 }  // namespace
 
-std::optional<ThinWall> thinnest_wall(const Layout& layout, double thickness) {
-  const double cell = thickness;
-  const auto key = [](std::int64_t i, std::int64_t j, std::int64_t k) { return (i * 2097152 + j) * 2097152 + k; };
-  const auto index = [&](double place, double from) { return static_cast<std::int64_t>(std::floor((place - from) / cell)); };
-  const Vector3d& origin = layout.domain.min;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells;
-  for (std::size_t s = 0; s < layout.walls.size(); ++s) {
-    const Vector3d& c = layout.walls[s].centre;
-    cells[key(index(c.x(), origin.x()), index(c.y(), origin.y()), index(c.z(), origin.z()))].push_back(s);
-  }
-  std::optional<ThinWall> thinnest;
-  const auto compare = [&](const WallElement& front, const WallElement& back) {
-    if (front.normal.dot(back.normal) > opposite) return;
-    const Vector3d through = back.centre - front.centre;
-    const double depth = front.normal.dot(through);  // normals point out of the fluid, so into the wall
-    if (depth < -1e-6 * layout.spacing || depth > (1 - rounding) * thickness) return;
-    if ((through - depth * front.normal).norm() > layout.spacing) return;
-    if (!thinnest || depth < thinnest->thickness) thinnest = ThinWall{front.owner, std::max(depth, 0.0), front.centre};
-  };
-  for (const WallElement& front : layout.walls) {
-    const std::int64_t at[3] = {index(front.centre.x(), origin.x()), index(front.centre.y(), origin.y()),
-                                index(front.centre.z(), origin.z())};
-    for (std::int64_t i = at[0] - 1; i <= at[0] + 1; ++i) {
-      for (std::int64_t j = at[1] - 1; j <= at[1] + 1; ++j) {
-        for (std::int64_t k = at[2] - 1; k <= at[2] + 1; ++k) {
-          const auto found = cells.find(key(i, j, k));
-          if (found == cells.end()) continue;
-          for (const std::size_t s : found->second) compare(front, layout.walls[s]);
-        }
-      }
+ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness) {
+  ThinParts parts;
+  const Looker looker(layout, dimensions, thickness);
+  for (const Facet& facet : layout.facets) {
+    bool thin = false;
+    for (const Vector3d& place : places_on(facet, dimensions)) {
+      const std::optional<double> found = looker.look(place, facet.normal);
+      if (!found) continue;
+      thin = true;
+      if (!parts.thinnest || *found < parts.thinnest->thickness) parts.thinnest = ThinWall{facet.owner, *found, place};
     }
+    parts.facets.push_back(thin);
   }
-  return thinnest;
+  const std::vector<bool> faces = parts.facets;
+  if (parts.thinnest) {
+    for (std::size_t r = 0; r < faces.size(); ++r)
+      for (std::size_t f = 0; f < faces.size() && !parts.facets[r]; ++f)
+        if (faces[f]) parts.facets[r] = is_rim(layout.facets[r], layout.facets[f], thickness, 1e-3 * layout.spacing);
+  }
+  if (parts.thinnest) parts.brims = find_brims(layout, parts.facets, dimensions);
+  for (const Facet& triangle : layout.triangles) {
+    const Vector3d middle = dimensions == 2 ? Vector3d(0.5 * (triangle.corners[0] + triangle.corners[1]))
+                                            : Vector3d((triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0);
+    parts.triangles.push_back(parts.thinnest && looker.look(middle, triangle.normal).has_value());
+  }
+  for (const WallElement& wall : layout.walls) parts.walls.push_back(parts.thinnest && looker.look(wall.centre, wall.normal).has_value());
+  return parts;
 }
 
 }  // namespace wavetank

@@ -57,8 +57,9 @@ class Facer {
     return result;
   }
 
-  /// The parts of the piece that fluid on the side of `to_fluid` wets; the piece itself where all of it is wetted.
-  std::vector<Polygon> wet_parts(const Polygon& piece, const Vector3d& to_fluid) const {
+  /// The parts of the piece that fluid on the side of `to_fluid` wets. Where all of it is wetted though a thin wall stands on it, that is
+  /// the piece itself, or with `keep_apart` still the parts on either side.
+  std::vector<Polygon> wet_parts(const Polygon& piece, const Vector3d& to_fluid, bool keep_apart = false) const {
     const std::vector<Vector3d> cuts = cutting_planes(piece, to_fluid);
     if (cuts.empty()) return wetted(piece, to_fluid) ? std::vector<Polygon>{piece} : std::vector<Polygon>{};
     std::vector<Polygon> parts;
@@ -68,7 +69,7 @@ class Facer {
       parts = halves(piece);
       bool whole = true;
       for (const Polygon& half : parts) {
-        const std::vector<Polygon> of_half = wet_parts(half, to_fluid);
+        const std::vector<Polygon> of_half = wet_parts(half, to_fluid, keep_apart);
         whole = whole && of_half.size() == 1 && of_half.front().size() == half.size() && of_half.front().front() == half.front();
         wet.insert(wet.end(), of_half.begin(), of_half.end());
       }
@@ -79,7 +80,7 @@ class Facer {
     for (const Polygon& part : parts) {
       if (wetted(part, to_fluid)) wet.push_back(part);
     }
-    if (wet.size() == parts.size()) wet.assign(1, piece);
+    if (!keep_apart && wet.size() == parts.size()) wet.assign(1, piece);
     return wet;
   }
 
@@ -282,7 +283,7 @@ std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner,
       const Vector3d plane_normal = has_plane ? patch.plane_normal : area.normalized();
       const double turn = area.dot(plane_normal) > 0 ? 1.0 : -1.0;
       for (const double sign : {1.0, -1.0}) {
-        for (const Polygon& part : facer.wet_parts(piece, sign * area.normalized())) {
+        for (const Polygon& part : facer.wet_parts(piece, sign * area.normalized(), true)) {
           Facet facet;
           if (dimensions == 2) facet = segment_of(part, patch.tangent);
           facet.normal = -sign * turn * plane_normal;

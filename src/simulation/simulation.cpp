@@ -65,13 +65,13 @@ std::string flow_of(Case scene, const Layout& layout) {
   return write_case(scene) + "geometry " + std::to_string(fingerprint(layout)) + "\n";
 }
 
-void warn_of_thin_walls(const Case& scene, const Layout& layout, const Discretisation& discretisation) {
-  const std::optional<ThinWall> wall = thinnest_wall(layout, discretisation.support);
+void tell_of_thin_walls(const Case& scene, const Layout& layout, const Discretisation& discretisation) {
+  const std::optional<ThinWall> wall = find_thin_parts(layout, scene.dimensions, discretisation.support).thinnest;
   if (!wall) return;
   const std::string whose = wall->owner == 0 ? "the tank" : "body " + scene.bodies[wall->owner - 1].name;
-  log(LogLevel::warning, whose + " is only " + number(wall->thickness) + " m thick at " + point(wall->place) +
-                             " m, with fluid possible on both sides, less than the kernel's support of " + number(discretisation.support) +
-                             " m: the water on one side feels that on the other. Make it thicker or fluid/spacing smaller.");
+  log(LogLevel::info, whose + " is only " + number(wall->thickness) + " m thick at " + point(wall->place) +
+                          " m, with fluid possible on both sides, less than the kernel's support of " + number(discretisation.support) +
+                          " m: it is taken for a thin plate, through which the water on one side does not feel that on the other.");
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ struct Simulation::Parts {
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
         recorder(scene, layout, *solver) {
-    warn_of_thin_walls(scene, layout, discretisation);
+    tell_of_thin_walls(scene, layout, discretisation);
   }
 
   Layout laid_out(const Case& checked) const {
@@ -310,7 +310,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const Discretisation discretisation = discretise(scene, layout);
   const compute::Device device(compute::choose_device(scene.device));
   const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
-  warn_of_thin_walls(scene, layout, discretisation);
+  tell_of_thin_walls(scene, layout, discretisation);
   solver->start();
   solver->advance();  // the first launch of a kernel may still compile it
   constexpr int measured_steps = 3;

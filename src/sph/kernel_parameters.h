@@ -27,6 +27,7 @@ enum Wall {
   normal_y,
   normal_z,
   wall_owner,
+  wall_thin,
   area,
   // of rectangles
   tangent_x,
@@ -44,6 +45,8 @@ enum Wall {
   edges = area
 };
 constexpr int edge_count = 8;
+constexpr int barrier_count = 16;
+constexpr int brim_count = 20;
 constexpr int image_count = 37;
 constexpr int motion_count = 18;
 constexpr int wrench_count = 12;

@@ -23,7 +23,7 @@ WallKind kind_of(const WallCase& walls) {
   return walls.elements == WallElements::semi_analytical ? WallKind::triangles : WallKind::rectangles;
 }
 
-std::string build_options(const Case& scene, bool use_double, bool images, bool moving) {
+std::string build_options(const Case& scene, bool use_double, bool images, bool moving, bool thin) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
   std::ostringstream options;
@@ -35,6 +35,7 @@ std::string build_options(const Case& scene, bool use_double, bool images, bool 
           << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped)
           << " -DFACETS=" << (kind_of(n.walls) == WallKind::facets) << " -DTRIANGLES=" << (kind_of(n.walls) == WallKind::triangles)
           << " -DGHOSTS=" << (n.walls.method == WallMethod::ghost) << " -DIMAGES=" << images << " -DMOVING_WALLS=" << moving
+          << " -DTHIN_WALLS=" << thin
           << " -DSHEPARD_GEOMETRIC=" << (shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_MONOLITHIC=" << (shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_VOLUMETRIC=" << (shepard == ShepardFactor::volumetric)
@@ -95,6 +96,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       id_(device, count_),
       spare_id_(device, count_),
       kind_(kind_of(scene.numerics.walls)),
+      thin_(find_thin_parts(layout, scene.dimensions, discretisation.support)),
       walls_(make_walls(layout)),
       motions_(device, centres.size() * field::motion_count),
       motion_centres_(device, 3 * centres.size()),
@@ -115,13 +117,17 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   closed_.facets = layout.facets;
   closed_.triangles = layout.triangles;
   closed_.lid = layout.lid;
+  std::vector<Facet> barriers;
+  for (std::size_t f = 0; f < layout.facets.size(); ++f)
+    if (thin_.facets[f]) barriers.push_back(layout.facets[f]);
+  barriers_ = Barriers<Real>(device, barriers, thin_.brims, discretisation_);
   const std::vector<TankImage> images = tank_images(case_, layout, discretisation_);
   images_ = Buffer(device, image_values<Real>(images));
   const KernelParameters<Real> parameters = kernel_parameters<Real>(case_, layout, discretisation_, static_cast<int>(images.size()));
   std::vector<char> bytes(sizeof parameters);
   std::memcpy(bytes.data(), &parameters, sizeof parameters);
   parameters_ = compute::Buffer<char>(device_, bytes);
-  options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), false);
+  options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), false, thin_.thinnest.has_value());
   grid_ = ParticleGrid(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_);
   build_kernels();
   std::vector<WallMotion> motions(centres.size());
@@ -134,8 +140,9 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
 
 template <class Real>
 WallArrays<Real> SphSolver<Real>::make_walls(const Layout& layout) const {
-  if (kind_ == WallKind::rectangles) return WallArrays<Real>(device_, layout.walls, discretisation_);
-  return WallArrays<Real>(device_, kind_ == WallKind::facets ? layout.facets : layout.triangles, kind_, discretisation_);
+  if (kind_ == WallKind::rectangles) return WallArrays<Real>(device_, layout.walls, thin_.walls, discretisation_);
+  if (kind_ == WallKind::facets) return WallArrays<Real>(device_, layout.facets, thin_.facets, kind_, discretisation_);
+  return WallArrays<Real>(device_, layout.triangles, thin_.triangles, kind_, discretisation_);
 }
 
 template <class Real>
@@ -143,7 +150,7 @@ WallArrays<Real> SphSolver<Real>::make_closed_walls(bool guarding) const {
   if (kind_ == WallKind::rectangles) {
     std::vector<WallElement> closed = closed_.walls;
     closed.insert(closed.end(), closed_.lid.begin(), closed_.lid.end());
-    return WallArrays<Real>(device_, closed, discretisation_);
+    return WallArrays<Real>(device_, closed, thin_.walls, discretisation_);
   }
   std::vector<Facet> closed = kind_ == WallKind::facets ? closed_.facets : closed_.triangles;
   if (ghosts_ && !guarding) closed.clear();  // the ghosts themselves are the walls
@@ -151,7 +158,9 @@ WallArrays<Real> SphSolver<Real>::make_closed_walls(bool guarding) const {
     const std::vector<Facet> parts = facets_of(element, case_.dimensions);
     closed.insert(closed.end(), parts.begin(), parts.end());
   }
-  return WallArrays<Real>(device_, closed, kind_, discretisation_);
+  const std::vector<bool> none;
+  const std::vector<bool>& thin = kind_ == WallKind::facets ? thin_.facets : thin_.triangles;
+  return WallArrays<Real>(device_, closed, ghosts_ && !guarding ? none : thin, kind_, discretisation_);
 }
 
 template <class Real>
@@ -234,27 +243,33 @@ template <class Real>
 void SphSolver<Real>::load_walls(const Buffer& state) {
   if (!elements_) return;  // a facet's pressure is that of the particle that feels it
   loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
-                       walls_.stride, motions_, images_, loads_);
+                       walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                       barriers_.brim_list, barriers_.brims, images_, loads_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates() {
   if (case_.numerics.density_diffusion == DensityDiffusion::antuono)
-    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, images_, gradient_);
+    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
+                            walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                            barriers_.brim_list, barriers_.brims, images_, gradient_);
   continuity_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                            walls_.stride, motions_, images_, gradient_, rates_);
+                            walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                            barriers_.brim_list, barriers_.brims, images_, gradient_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(const Buffer& state) {
   momentum_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
-                          walls_.stride, motions_, images_, loads_, rates_);
+                          walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                          barriers_.brim_list, barriers_.brims, images_, loads_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::guard() {
-  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.list, walls_.fields, walls_.stride, motions_, images_, rates_,
-                       state_, stride_, guard_hits_);
+  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.list, walls_.fields, walls_.stride, motions_, barriers_.starts,
+                       barriers_.list, barriers_.planes, barriers_.brim_starts, barriers_.brim_list, barriers_.brims, images_, rates_,
+                       half_, time_step_, state_, stride_, guard_hits_);
 }
 
 template <class Real>
@@ -340,7 +355,8 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
     packing_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, closed.starts, closed.list, closed.fields,
-                           closed.stride, motions_, images_, rates_);
+                           closed.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                           barriers_.brim_list, barriers_.brims, images_, rates_);
     if (k % report_interval == 0 || k == iterations) {
       packing_total_.launch(1, count_, rates_, stride_, total);
       report.last_error = total.download()[0];
@@ -349,9 +365,10 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     }
     report.iterations = k;
     if (k == iterations) break;
-    move_packed_.launch(count_, parameters_, count_, state_, stride_, rates_);
-    guard_kernel_.launch(count_, parameters_, count_, guarded.starts, guarded.list, guarded.fields, guarded.stride, motions_, images_,
-                         rates_, state_, stride_, guard_hits_);
+    move_packed_.launch(count_, parameters_, count_, state_, half_, stride_, rates_);
+    guard_kernel_.launch(count_, parameters_, count_, guarded.starts, guarded.list, guarded.fields, guarded.stride, motions_,
+                         barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts, barriers_.brim_list, barriers_.brims,
+                         images_, rates_, half_, time_step_, state_, stride_, guard_hits_);
     sort();
   }
   return report;
@@ -374,7 +391,8 @@ template <class Real>
 std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
   points_kernel_.launch(points.count, parameters_, points.count, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                        walls_.stride, motions_, images_, points.points, points.results);
+                        walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                        barriers_.brim_list, barriers_.brims, images_, points.points, points.results);
   const std::vector<Real> results = points.results.download();
   std::vector<PointValue> values(points.count);
   for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
@@ -388,7 +406,8 @@ std::vector<WallWrench> SphSolver<Real>::wrenches() {
   for (std::size_t owner = 0; owner < centres_.size(); ++owner) {
     // the spare state is free between two sortings
     forces_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                          walls_.stride, motions_, images_, loads_, static_cast<int>(owner), motion_centres_, spare_);
+                          walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                          barriers_.brim_list, barriers_.brims, images_, loads_, static_cast<int>(owner), motion_centres_, spare_);
     wrench_chunks_.launch(chunks_, count_, spare_, stride_, wrench_parts_);
     wrench_total_.launch(1, chunks_, wrench_parts_, wrench_);
     const std::vector<Real> total = wrench_.download();
@@ -415,7 +434,8 @@ FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
   Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
   surface_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                         walls_.stride, motions_, images_, results);
+                         walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
+                         barriers_.brim_list, barriers_.brims, images_, results);
   const std::vector<Real> surface = results.download();
   FluidState fluid;
   fluid.id = id_.download();

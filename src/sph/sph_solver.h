@@ -4,6 +4,7 @@
 #include "particle_grid.h"
 #include "wall_arrays.h"
 #include "wavetank/compute/program.h"
+#include "wavetank/geometry/thin_walls.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
@@ -68,7 +69,9 @@ class SphSolver final : public Solver {
   compute::Buffer<std::uint32_t> id_, spare_id_;
   ParticleGrid grid_;
   WallKind kind_;
+  ThinParts thin_;
   WallArrays<Real> walls_;
+  Barriers<Real> barriers_;
   Layout closed_;  ///< the walls and the lid alone, for packing
   Buffer motions_, motion_centres_, images_;
   Buffer loads_;

@@ -112,6 +112,9 @@ Facet turned_left(Facet facet, int dimensions) {
   return facet;
 }
 
+/// The list may end before the walls do: a lid is not thin.
+bool is_thin(const std::vector<bool>& thin, int s) { return static_cast<std::size_t>(s) < thin.size() && thin[s]; }
+
 bool comes_first(const Vector3d& a, const Vector3d& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
@@ -133,7 +136,8 @@ void set_edges(const Facet& facet, int s, int dimensions, Fields<Real>& fields) 
 }  // namespace
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const Discretisation& d)
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const std::vector<bool>& thin,
+                             const Discretisation& d)
     : count(static_cast<int>(elements.size())), stride(std::max(count, 1)), list(device, 1) {
   std::vector<Vector3d> centres;
   for (const WallElement& element : elements) centres.push_back(element.centre);
@@ -144,6 +148,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
     values.set_place(field::wall_x, s, element.centre);
     values.set_vector(field::normal_x, s, element.normal);
     values.set(field::wall_owner, s, element.owner);
+    values.set(field::wall_thin, s, is_thin(thin, cells.order[s]) ? 1.0 : 0.0);
     values.set_vector(field::tangent_x, s, element.tangent);
     values.set(field::area, s, element.area);
     values.set(field::half_along, s, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
@@ -156,7 +161,8 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
 }
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, WallKind kind, const Discretisation& d)
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
+                             const Discretisation& d)
     : count(static_cast<int>(facets.size())), stride(std::max(count, 1)), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
@@ -169,6 +175,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     const Facet facet = turned_left(facets[source], d.dimensions);
     values.set_vector(field::normal_x, s, facet.normal);
     values.set(field::wall_owner, s, facet.owner);
+    values.set(field::wall_thin, s, is_thin(thin, source) ? 1.0 : 0.0);
     values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
     if (whole) {
       set_edges(facet, s, d.dimensions, values);
@@ -183,7 +190,66 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
   if (whole && !cells.order.empty()) list = compute::Buffer<int>(device, cells.order);
 }
 
+template <class Real>
+Barriers<Real>::Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& edges,
+                         const Discretisation& d) {
+  const CellOrder cells = facets_by_cell(facets, d);
+  const double margin = 1e-4 * d.spacing;  // no gap between two that meet
+  std::vector<Real> values;
+  const auto add_plane = [&](const Vector3d& normal, const Vector3d& point, double offset) {
+    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(normal[axis]));
+    values.push_back(static_cast<Real>(offset - normal.dot(point - d.origin)));
+  };
+  for (const Facet& given : facets) {
+    const Facet facet = turned_left(given, d.dimensions);
+    add_plane(facet.normal, facet.plane_point, 0.0);
+    for (int k = 0; k < 3; ++k) {
+      if (d.dimensions == 2) {  // the two ends, the second of them twice
+        const Vector3d way = (facet.corners[1] - facet.corners[0]).normalized();
+        add_plane(k == 0 ? way : Vector3d(-way), facet.corners[k == 0 ? 0 : 1], margin);
+        continue;
+      }
+      const Vector3d edge = facet.corners[(k + 1) % 3] - facet.corners[k];
+      add_plane(facet.normal.cross(edge).normalized(), facet.corners[k], margin);
+    }
+  }
+  if (values.empty()) values.push_back(Real(0));
+  planes = compute::Buffer<Real>(device, values);
+  starts = compute::Buffer<int>(device, cells.begin);
+  list = cells.order.empty() ? compute::Buffer<int>(device, 1) : compute::Buffer<int>(device, cells.order);
+
+  std::vector<Facet> as_facets;
+  std::vector<Real> edge_values;
+  for (const Brim& brim : edges) {
+    Facet facet;
+    facet.corners[0] = brim.from;
+    facet.corners[1] = facet.corners[2] = brim.to;
+    as_facets.push_back(facet);
+    const double length = (brim.to - brim.from).norm();
+    const Vector3d way = d.dimensions == 2 ? Vector3d::UnitY() : Vector3d((brim.to - brim.from) / length);
+    const std::size_t end = edge_values.size() + field::brim_count;
+    const auto add = [&](const Vector3d& vector) {
+      for (int axis = 0; axis < 3; ++axis) edge_values.push_back(static_cast<Real>(vector[axis]));
+    };
+    add(brim.from - d.origin);
+    add(way);
+    edge_values.push_back(static_cast<Real>(length));
+    add(brim.face_normal);
+    add(brim.inwards);
+    add(brim.has_other ? brim.other_normal : Vector3d::Zero());
+    edge_values.push_back(brim.has_other ? Real(1) : Real(0));
+    edge_values.resize(end, Real(0));
+  }
+  const CellOrder brim_cells = facets_by_cell(as_facets, d);
+  if (edge_values.empty()) edge_values.push_back(Real(0));
+  brims = compute::Buffer<Real>(device, edge_values);
+  brim_starts = compute::Buffer<int>(device, brim_cells.begin);
+  brim_list = brim_cells.order.empty() ? compute::Buffer<int>(device, 1) : compute::Buffer<int>(device, brim_cells.order);
+}
+
 template struct WallArrays<float>;
 template struct WallArrays<double>;
+template struct Barriers<float>;
+template struct Barriers<double>;
 
 }  // namespace wavetank

@@ -5,6 +5,7 @@
 #include "kernel_parameters.h"
 #include "wavetank/compute/buffer.h"
 #include "wavetank/geometry/layout.h"
+#include "wavetank/geometry/thin_walls.h"
 
 namespace wavetank {
 
@@ -16,15 +17,30 @@ enum class WallKind { rectangles, triangles, facets };
 template <class Real>
 struct WallArrays {
   WallArrays() = default;
-  WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const Discretisation& discretisation);
+  WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const std::vector<bool>& thin,
+             const Discretisation& discretisation);
   /// `kind`: triangles or facets.
-  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, WallKind kind, const Discretisation& discretisation);
+  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
+             const Discretisation& discretisation);
 
   int count = 0;
   int stride = 0;
   compute::Buffer<Real> fields;  ///< as field::Wall has them for the kind
   compute::Buffer<int> starts;   ///< of each cell, one more than cells: in the fields, or in the list
   compute::Buffer<int> list;     ///< of facets by cell
+};
+
+/// Thin walls on the device, that the water does not see through.
+template <class Real>
+struct Barriers {
+  Barriers() = default;
+  Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& brims,
+           const Discretisation& discretisation);
+
+  compute::Buffer<int> starts, list;  ///< by cell
+  compute::Buffer<Real> planes;       ///< field::barrier_count values each
+  compute::Buffer<int> brim_starts, brim_list;
+  compute::Buffer<Real> brims;  ///< field::brim_count values each
 };
 
 }  // namespace wavetank

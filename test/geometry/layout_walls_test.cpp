@@ -247,20 +247,20 @@ TEST_F(LayoutWalls, ABaffleGetsAnElementOnEachSide) {
 
 TEST_F(LayoutWalls, TheThinnestPlaceWithFluidOnBothSidesIsFound) {
   Case checked = box_case(Vector3d(1, 1, 0.8), 0.5, 0.05);
-  EXPECT_FALSE(thinnest_wall(lay_out(checked), 0.15));
+  EXPECT_FALSE(find_thin_parts(lay_out(checked), 3, 0.15).thinnest);
   checked.bodies = {{"thick", Box{Vector3d(0.1, 0.3, 0), Vector3d(0.3, 0.7, 0.3)}, Motion::fixed},
                     {"thin", Box{Vector3d(0.6, 0.2, 0), Vector3d(0.66, 0.8, 0.4)}, Motion::fixed}};
-  const std::optional<ThinWall> thin = thinnest_wall(lay_out(checked), 0.15);
+  const std::optional<ThinWall> thin = find_thin_parts(lay_out(checked), 3, 0.15).thinnest;
   ASSERT_TRUE(thin);
   EXPECT_EQ(thin->owner, 2);
   EXPECT_NEAR(thin->thickness, 0.06, 1e-9);
-  EXPECT_FALSE(thinnest_wall(lay_out(checked), 0.05));
+  EXPECT_FALSE(find_thin_parts(lay_out(checked), 3, 0.05).thinnest);
 
   TriangleMesh tank = box_mesh({Vector3d::Zero(), Vector3d(1, 0.5, 0.5)}, true, "");
   append(tank, plate(0.525, 0.1, 0.4, 0.1, 0.4));
   Case with_baffle = mesh_case(tank, 0.05);
   with_baffle.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1, 0.5, 0.45)}};
-  const std::optional<ThinWall> baffle = thinnest_wall(lay_out(with_baffle), 0.15);
+  const std::optional<ThinWall> baffle = find_thin_parts(lay_out(with_baffle), 3, 0.15).thinnest;
   ASSERT_TRUE(baffle);
   EXPECT_EQ(baffle->owner, 0);
   EXPECT_NEAR(baffle->thickness, 0, 1e-9);

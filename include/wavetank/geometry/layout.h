@@ -20,10 +20,10 @@ struct WallElement {
 
 /// A flat triangle of wall; in 2-D a segment, whose third corner is not used.
 struct Facet {
-  Vector3d corners[3];   ///< m
-  Vector3d normal;       ///< unit, pointing out of the fluid
-  Vector3d plane_point;  ///< m, a point of its plane; facets of one plane share normal and point to the last bit
-  int owner = 0;         ///< 0 the tank, 1 + i body i
+  Vector3d corners[3];                      ///< m
+  Vector3d normal = Vector3d::Zero();       ///< unit, pointing out of the fluid
+  Vector3d plane_point = Vector3d::Zero();  ///< m, a point of its plane; facets of one plane share normal and point to the last bit
+  int owner = 0;                            ///< 0 the tank, 1 + i body i
 };
 
 /// A rectangle as two triangles (2-D: as one segment).
@@ -35,7 +35,7 @@ struct Layout {
   Box domain;                        ///< bounding box of the tank's walls, m (2-D: y = 0)
   std::vector<TriangleMesh> meshes;  ///< 0 the tank, 1 + i body i; in 3-D and as given in 2-D
   std::vector<WallElement> walls;    ///< in a fixed order, the same at every start
-  std::vector<Facet> facets;         ///< the walls as the meshes' own triangles, of any size: where the case has facets or ghosts
+  std::vector<Facet> facets;         ///< the walls as the meshes' own triangles, of any size
   std::vector<Facet> triangles;      ///< the walls cut into triangles of about the spacing: where it has semi-analytical elements
   std::vector<WallElement> lid;      ///< temporary, closes the fluid's free surface while it is packed
   std::vector<Vector3d> particles;   ///< centres, m

@@ -55,7 +55,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if SHEPARD_GEOMETRIC
   a->shepard += c.shepard;
 #endif
@@ -71,7 +71,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   if (i >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
                          state[FIELD_Z * stride + i]);
   a.walls = &walls;
 #if DIFFUSION_ANTUONO

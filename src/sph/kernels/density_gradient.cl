@@ -28,11 +28,12 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #include "sweep.cl"
 
 __kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                               __global const real* images, __global real* gradient) {
+                               WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
   const int i = get_global_id(0);
   if (i >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
                          state[FIELD_Z * stride + i]);
   a.compression = state[FIELD_COMPRESSION * stride + i];
   sweep_particles(&a, p, cell_start, images);

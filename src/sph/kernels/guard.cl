@@ -6,6 +6,7 @@
 
 typedef struct {
   const walls_t* walls;
+  vector_t from;  // where it was at the start of the step
   real x, y, z;  // how far it was set back
   real u, v, w;
   int hits;
@@ -14,6 +15,14 @@ typedef struct {
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
   const contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
+#if THIN_WALLS
+  const bool thin = a->walls->fields[WALL_THIN * a->walls->stride + s] > R(0.5);
+  // a thin wall holds what was on its own side
+  if (thin && touch_wall(p, a->walls, s, a->from.x, a->from.y, a->from.z).distance < R(0.0)) return;
+  const real least = thin ? R(1.0e-3) * p->spacing : R(0.0);  // never in its very plane, from where both sides can be seen
+#else
+  const real least = R(0.0);
+#endif
   // behind a wall as far as half a spacing on the wall itself, by no more than the guard distance beside it: there a body's own side may lie
   const real deepest = c.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
   if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest) return;
@@ -25,10 +34,11 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
     a->w -= approach * c.normal.z;
     a->hits += 1;
   }
-  if (c.distance < R(0.0)) {
-    a->x += c.distance * c.normal.x;
-    a->y += c.distance * c.normal.y;
-    a->z += c.distance * c.normal.z;
+  if (c.distance < least) {
+    const real back = c.distance - least;
+    a->x += back * c.normal.x;
+    a->y += back * c.normal.y;
+    a->z += back * c.normal.z;
   }
 }
 
@@ -47,7 +57,8 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
   return held;
 }
 
-__kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS, __global const real* images, __global const real* rates, __global real* state, int stride, __global int* hits) {
+__kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS, __global const real* images, __global const real* rates, __global const real* half_state,
+                    __global const real* time_step, __global real* state, int stride, __global int* hits) {
   const int i = get_global_id(0);
   if (i >= count) return;
   hits[i] = 0;
@@ -74,6 +85,11 @@ __kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS,
   sweep_t a = {0};
   const walls_t walls = WALLS_OF_ARGUMENTS;
   a.walls = &walls;
+  // the middle of the step is half a step of the first velocity away from its start
+  const real back = -R(0.5) * time_step[0];
+  a.from = make_vector(half_state[FIELD_X * stride + i] + back * half_state[FIELD_U * stride + i],
+                       half_state[FIELD_Y * stride + i] + back * half_state[FIELD_V * stride + i],
+                       half_state[FIELD_Z * stride + i] + back * half_state[FIELD_W * stride + i]);
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];

@@ -11,6 +11,8 @@
 #include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
+#define SWEEP_BRIMS
+#define NEEDS_AVERAGE (FACETS || THIN_WALLS)
 
 typedef struct {
   neighbours_t near;
@@ -20,7 +22,7 @@ typedef struct {
   real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
-#if FACETS
+#if NEEDS_AVERAGE
   real average_weight, average_pressure;  // Σ W V, Σ [p_j + ρ_j g·(x_i − x_j)] W V
 #endif
 #if WALL_FORCES
@@ -36,14 +38,14 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
   const real distance = sqrt(r2);
   const real slope_volume = kernel_slope(p, distance) * volume;
-#if SHEPARD_VOLUMETRIC || FACETS
+#if SHEPARD_VOLUMETRIC || NEEDS_AVERAGE
   const real weight = kernel_value(p, distance) * volume;
 #endif
 #if SHEPARD_VOLUMETRIC
   a->shepard += weight;
 #endif
   const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
-#if FACETS
+#if NEEDS_AVERAGE
   a->average_weight += weight;
   a->average_pressure += weight * (pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz));
 #endif
@@ -90,7 +92,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if WALL_FORCES
   const bool own = a->owner == (int)a->walls->fields[WALL_OWNER * a->walls->stride + s];
   if (own) a->touched += c.weight;
@@ -138,6 +140,21 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
 #endif
 }
 
+#if THIN_WALLS
+// Beyond a plate's edge there is water, not seen but there: its pressure goes on from the particle's.
+INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+#if WALL_FORCES
+  if (a->looking) return;
+#endif
+  const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
+  const real push = (a->pressure + a->average_pressure / a->average_weight) * b.weight +
+                    a->density * (p->gravity_x * b.moment.x + p->gravity_y * b.moment.y + p->gravity_z * b.moment.z);
+  a->force_x += push * b.normal.x;
+  a->force_y += push * b.normal.y;
+  a->force_z += push * b.normal.z;
+}
+#endif
+
 #if GHOSTS
 // Short-range repulsion by the foot of the particle on each plane ([D] §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
 // at a tenth of it.
@@ -165,7 +182,7 @@ INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global
 INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
                           __global const real* wall_loads) {
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  a.near = neighbours_of(state, stride, walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
                          state[FIELD_Z * stride + i]);
   a.walls = walls;
   a.wall_loads = wall_loads;

@@ -11,9 +11,33 @@
 #define IMAGE_COUNT 37
 
 typedef struct {
+  __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
+  __global const int* list;
+  __global const real* fields;
+  int stride;
+  __global const real* motions;
+  // thin walls, that the water does not see through: each cell's part of a list of flat triangles
+  __global const int* barrier_start;
+  __global const int* barrier_list;
+  __global const real* barriers;
+  // and their free edges
+  __global const int* brim_start;
+  __global const int* brim_list;
+  __global const real* brims;
+} walls_t;
+
+// The arguments of a kernel that sweeps walls, or particles that walls may hide.
+#define WALL_ARGUMENTS                                                                                                             \
+  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
+      __global const real *wall_motions, __global const int *barrier_start, __global const int *barrier_list, __global const real *barriers, \
+      __global const int *brim_start, __global const int *brim_list, __global const real *brims
+#define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, brim_start, brim_list, brims}
+
+typedef struct {
   __global const real* state;
   int stride;
   real x, y, z;  // of the particle, or the point, whose neighbours they are
+  const walls_t* walls;
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
   __global const real* image;
@@ -36,10 +60,11 @@ INLINE vector_t turned(__global const real* q, real x, real y, real z) {
   return make_vector(q[0] * x + q[1] * y + q[2] * z, q[3] * x + q[4] * y + q[5] * z, q[6] * x + q[7] * y + q[8] * z);
 }
 
-INLINE neighbours_t neighbours_of(__global const real* state, int stride, real x, real y, real z) {
+INLINE neighbours_t neighbours_of(__global const real* state, int stride, const walls_t* walls, real x, real y, real z) {
   neighbours_t n;
   n.state = state;
   n.stride = stride;
+  n.walls = walls;
   n.x = x;
   n.y = y;
   n.z = z;
@@ -106,3 +131,29 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
   const real dx = x - image[IMAGE_OFFSET], dy = y - image[IMAGE_OFFSET + 1], dz = z - image[IMAGE_OFFSET + 2];
   return make_vector(q[0] * dx + q[3] * dy + q[6] * dz, q[1] * dx + q[4] * dy + q[7] * dz, q[2] * dx + q[5] * dy + q[8] * dz);
 }
+
+#if THIN_WALLS
+#define BARRIER_COUNT 16  // plane n, o, and three edges' planes m, o, all with normal · x + o; inside an edge that is not negative
+
+// Whether a thin wall of the cell of (x, y, z) crosses the way from there along (rx, ry, rz).
+INLINE bool hidden_in_cell(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
+  const int cell = cell_index(p, x, y, z);
+  for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k) {
+    __global const real* b = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
+    const real before = b[0] * x + b[1] * y + b[2] * z + b[3];
+    const real after = before + b[0] * rx + b[1] * ry + b[2] * rz;
+    if (before * after >= R(0.0)) continue;
+    const real part = before / (before - after);
+    const real cx = x + part * rx, cy = y + part * ry, cz = z + part * rz;
+    bool within = true;
+    for (int e = 1; e < 4; ++e) within = within && b[4 * e] * cx + b[4 * e + 1] * cy + b[4 * e + 2] * cz + b[4 * e + 3] >= R(0.0);
+    if (within) return true;
+  }
+  return false;
+}
+
+INLINE bool has_barriers(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
+  const int cell = cell_index(p, x, y, z);
+  return walls->barrier_start[cell + 1] > walls->barrier_start[cell];
+}
+#endif

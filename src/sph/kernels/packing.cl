@@ -3,6 +3,7 @@
 #include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
+#define SWEEP_BRIMS
 
 typedef struct {
   neighbours_t near;
@@ -21,13 +22,22 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
   a->error_x += c.weight * c.normal.x;
   a->error_y += c.weight * c.normal.y;
   a->error_z += c.weight * c.normal.z;
   const real clearance = wall_clearance(p, &c);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
 }
+
+#if THIN_WALLS
+INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
+  a->error_x += b.weight * b.normal.x;
+  a->error_y += b.weight * b.normal.y;
+  a->error_z += b.weight * b.normal.z;
+}
+#endif
 
 #include "sweep.cl"
 
@@ -38,7 +48,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   if (i >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
                          state[FIELD_Z * stride + i]);
   a.walls = &walls;
   a.clearance = p->support;

@@ -30,7 +30,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-  const contact_t c = touch_wall(p, a->walls, s, x, y, z);
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
   if (a->finding_touched) {
     const bool touched = c.beside <= BORDER * p->spacing && fabs(c.distance) < HAIR * p->spacing;
     a->inwards_x -= touched ? c.normal.x : R(0.0);
@@ -67,7 +67,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   if (i >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, points[i], points[count + i], points[2 * count + i]);
+  a.near = neighbours_of(state, stride, &walls, points[i], points[count + i], points[2 * count + i]);
   a.walls = &walls;
   sweep_particles(&a, p, cell_start, images);
   find_shepard(&a, p, images);
@@ -85,7 +85,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   if (i >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
+  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
                          state[FIELD_Z * stride + i]);
   a.walls = &walls;
   a.shepard = R(1.0);

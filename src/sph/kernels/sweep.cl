@@ -4,6 +4,7 @@
 //   add_particle(sweep_t*, p, j, rx, ry, rz, r2)          one neighbour j at (rx, ry, rz) = x_j − x, for every candidate of the cells (W and F vanish
 //                                                         beyond the support, so no branch is needed, and the compiler vectorises the loop),
 //   add_wall(sweep_t*, p, s, x, y, z)                     one wall element or facet that may be within the support of (x, y, z),
+//   SWEEP_BRIMS, add_brim(sweep_t*, p, s, x, y, z)        in cases with thin plates, if the free edges of these matter to it,
 // and whose kernel starts the sums, calls the loop, and finishes them. Particles and elements are sorted by cell, x fastest: three cells in a row are
 // one contiguous run. Cells have the support's size. Facets are larger than cells: each cell has a list of those within the support of it.
 #ifdef SWEEP_PARTICLES
@@ -16,6 +17,9 @@ INLINE void sweep_cells(sweep_t* sums, __constant const parameters_t* p, __globa
   __global const real* ys = state + FIELD_Y * stride;
 #endif
   __global const real* zs = state + FIELD_Z * stride;
+#if THIN_WALLS
+  const bool screened = has_barriers(p, sums->near.walls, x, y, z) || has_barriers(p, sums->near.walls, sums->near.x, sums->near.y, sums->near.z);
+#endif
   const int centre = cell_index(p, x, y, z);
   const int layer = DIMENSIONS == 3 ? p->cells_x * p->cells_y : p->cells_x;
   for (int dz = -1; dz <= 1; ++dz) {
@@ -27,6 +31,22 @@ INLINE void sweep_cells(sweep_t* sums, __constant const parameters_t* p, __globa
       const int row = centre + dz * layer;
 #endif
       const int end = cell_start[row + 2];
+#if THIN_WALLS
+      if (screened) {
+        for (int j = cell_start[row - 1]; j < end; ++j) {
+          const real rx = xs[j] - x;
+          const real ry = DIMENSIONS == 3 ? state[FIELD_Y * stride + j] - y : R(0.0);
+          const real rz = zs[j] - z;
+          const real r2 = rx * rx + ry * ry + rz * rz;
+          // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
+          if (r2 >= p->support_squared || hidden_in_cell(p, sums->near.walls, x, y, z, rx, ry, rz) ||
+              hidden_in_cell(p, sums->near.walls, sums->near.x, sums->near.y, sums->near.z, rx, ry, rz))
+            continue;
+          add_particle(sums, p, j, rx, ry, rz, r2);
+        }
+        continue;
+      }
+#endif
       for (int j = cell_start[row - 1]; j < end; ++j) {
         const real rx = xs[j] - x;
 #if DIMENSIONS == 3
@@ -107,6 +127,9 @@ INLINE void sweep_wall_cells(sweep_t* sums, __constant const parameters_t* p, co
       }
     }
   }
+#endif
+#if THIN_WALLS && defined(SWEEP_BRIMS)
+  for (int k = walls->brim_start[centre]; k < walls->brim_start[centre + 1]; ++k) add_brim(sums, p, walls->brim_list[k], x, y, z);
 #endif
 }
 

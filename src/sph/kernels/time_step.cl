@@ -92,10 +92,13 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 }
 
 // One iteration of packing: the rates hold displacements.
-__kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, int stride, __global const real* rates) {
+__kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, __global real* half_state, int stride,
+                          __global const real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
   for (int axis = 0; axis < 3; ++axis) {
+    half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i];  // for the guard: where it was
+    half_state[(FIELD_U + axis) * stride + i] = R(0.0);
     state[(FIELD_X + axis) * stride + i] += rates[(RATE_U + axis) * stride + i];
     state[(FIELD_U + axis) * stride + i] = R(0.0);
   }

@@ -4,10 +4,10 @@
 // p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and six Gauss points give them to 2e-5; the singular part of Φ gives an
 // angle. Lengths below are in units of h.
 #if DIMENSIONS == 3
-#define WALL_EDGES 7          // three times: base x, y, z, direction x, y, z, length, sign
+#define WALL_EDGES 8          // three times: base x, y, z, direction x, y, z, length, sign
 #define EDGE_COUNT 8
 #else
-#define WALL_EDGES 7          // base x, y, z, direction x, y, z, length
+#define WALL_EDGES 8          // base x, y, z, direction x, y, z, length
 #endif
 
 // Distances below this are as good as zero: far below what a coordinate resolves, but enough to keep the angles defined.

@@ -31,7 +31,14 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
   const walls_t walls = WALLS_OF_ARGUMENTS;
   const real x = wall_fields[WALL_X * wall_stride + s], y = wall_fields[WALL_Y * wall_stride + s], z = wall_fields[WALL_Z * wall_stride + s];
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, x, y, z);
+#if THIN_WALLS
+  // off a thin wall, to its own side, or it would see both
+  const real lift = -R(1.0e-3) * p->spacing;
+  a.near = neighbours_of(state, stride, &walls, x + lift * wall_fields[WALL_NORMAL_X * wall_stride + s], y + lift * wall_fields[WALL_NORMAL_Y * wall_stride + s],
+                         z + lift * wall_fields[WALL_NORMAL_Z * wall_stride + s]);
+#else
+  a.near = neighbours_of(state, stride, &walls, x, y, z);
+#endif
   a.gravity = gravity_at_wall(p, &walls, s, x, y, z);
   sweep_particles(&a, p, cell_start, images);
   const bool wet = a.fit.weight > DRY;

@@ -3,20 +3,6 @@
 #include "neighbours.cl"
 
 typedef struct {
-  __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
-  __global const int* list;
-  __global const real* fields;
-  int stride;
-  __global const real* motions;
-} walls_t;
-
-// The arguments of a kernel that sweeps walls.
-#define WALL_ARGUMENTS                                                                                                             \
-  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
-      __global const real *wall_motions
-#define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions}
-
-typedef struct {
   vector_t normal;   // out of the fluid
   real distance;     // of the point from the wall's plane, positive on the fluid's side
   real weight;       // ∫ W dS
@@ -116,6 +102,31 @@ INLINE real side_of(__constant const parameters_t* p, real distance, bool over) 
 #else
 #include "wall_rectangle.cl"
 #endif
+
+#if THIN_WALLS
+#include "brim.cl"
+#endif
+
+// A wall as the point sees it: a thin one from its own side only, and none through a thin one.
+INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  contact_t c = touch_wall(p, walls, s, x, y, z);
+#if THIN_WALLS
+  bool unseen = c.distance < R(0.0) && walls->fields[WALL_THIN * walls->stride + s] > R(0.5);
+  if (!unseen && c.weight > R(0.0)) {
+    // to the middle of what is within the support, or nearly: the wall itself may be thin
+    const real inverse = R(0.99) / c.weight;
+    unseen = hidden_in_cell(p, walls, x, y, z, c.moment.x * inverse, c.moment.y * inverse, c.moment.z * inverse);
+  }
+  if (unseen) {
+    c.weight = R(0.0);
+    c.shepard = R(0.0);
+    c.moment = make_vector(R(0.0), R(0.0), R(0.0));
+    c.beside = p->support;
+    c.over = false;
+  }
+#endif
+  return c;
+}
 
 // How near the point is to the wall, at the least: what the guard asks. Beside a wall it counts too, for a point that comes round an edge.
 INLINE real wall_clearance(__constant const parameters_t* p, const contact_t* c) {
