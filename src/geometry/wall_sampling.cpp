@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "planar_regions.h"
 
@@ -155,6 +157,51 @@ Polyline without_straight_points(const Polyline& line) {
   return result;
 }
 
+/// The outer edges of a flat region as one loop without points on straight runs; empty if there are holes or more than one loop.
+Polygon outline_of(const PlanarRegion& region) {
+  using Corner = std::pair<double, double>;
+  std::map<Corner, Corner> next;  // along outer edges, turning left
+  std::set<std::pair<Corner, Corner>> edges;
+  for (const FlatTriangle& t : region.triangles)
+    for (int k = 0; k < 3; ++k) edges.insert({{t[k].x(), t[k].y()}, {t[(k + 1) % 3].x(), t[(k + 1) % 3].y()}});
+  for (const auto& [from, to] : edges) {
+    if (edges.count({to, from}) != 0) continue;
+    if (!next.emplace(from, to).second) return {};  // two loops touch
+  }
+  if (next.empty()) return {};
+  Polygon loop;
+  Corner at = next.begin()->first;
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    loop.emplace_back(at.first, at.second, 0.0);
+    const auto found = next.find(at);
+    if (found == next.end()) return {};
+    at = found->second;
+    if (at == next.begin()->first && k + 1 < next.size()) return {};
+  }
+  Polygon corners;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Vector3d before = loop[k] - loop[(k + loop.size() - 1) % loop.size()], after = loop[(k + 1) % loop.size()] - loop[k];
+    if (before.dot(after) <= 0 || before.cross(after).norm() > straight * before.norm() * after.norm()) corners.push_back(loop[k]);
+  }
+  return corners;
+}
+
+/// A flat region cut anew, into as few triangles as its outline allows: how finely a mesh cuts a flat wall says nothing.
+std::vector<FlatTriangle> in_few_triangles(const PlanarRegion& region) {
+  const Polygon outline = outline_of(region);
+  if (outline.size() < 3 || outline.size() >= region.triangles.size() + 2) return region.triangles;
+  std::vector<FlatTriangle> result;
+  double area = 0;
+  for (const Eigen::Vector3i& t : triangulate(outline)) {
+    FlatTriangle triangle;
+    for (int k = 0; k < 3; ++k) triangle[k] = outline[t[k]].head<2>();
+    const Eigen::Vector2d a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    result.push_back(triangle);
+  }
+  return std::abs(area - region.area) <= 1e-6 * region.area ? result : region.triangles;
+}
+
 }  // namespace
 
 std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing) {
@@ -196,7 +243,7 @@ std::vector<WallPatch> sample_outline(const Outline& outline, double spacing) {
 std::vector<WallPatch> whole_facets(const TriangleMesh& mesh) {
   std::vector<WallPatch> patches;
   for (const PlanarRegion& region : planar_regions(mesh)) {
-    for (const FlatTriangle& t : region.triangles) {
+    for (const FlatTriangle& t : in_few_triangles(region)) {
       WallPatch patch;
       patch.pieces = {{in_space(region, t[0]), in_space(region, t[1]), in_space(region, t[2])}};
       patch.tangent = region.along;

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <exception>
 #include <set>
+#include <variant>
+#include <vector>
 
 #include "wavetank/compute/device.h"
 #include "wavetank/sph/solver.h"
@@ -22,11 +24,11 @@ wavetank::Case column(int dimensions, wavetank::DensityDiffusion diffusion) {
   return scene;
 }
 
-void run(const wavetank::compute::Device& device, const wavetank::Case& checked) {
+void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
+         const std::vector<Vector3d>& centres = {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}) {
   const wavetank::Layout layout = wavetank::lay_out(checked);
   const wavetank::Case scene = wavetank::settled(checked, layout);
-  const auto solver =
-      wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)});
+  const auto solver = wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), centres);
   solver->pack(2, {});
   solver->start();
   for (int step = 0; step < 2; ++step) solver->advance();
@@ -51,6 +53,24 @@ int main() {
     for (const int dimensions : {2, 3})
       for (const auto diffusion : {wavetank::DensityDiffusion::fourtakas, wavetank::DensityDiffusion::antuono})
         run(device, column(dimensions, diffusion));
+    // every kind of wall, with plates thinner than the support (the box in 3-D), belts, periodic ends and ghosts
+    for (const int dimensions : {2, 3}) {
+      wavetank::Case scene = column(dimensions, wavetank::DensityDiffusion::fourtakas);
+      scene.tank.periodic = {false, dimensions == 3, false};
+      scene.bodies[0].surface_velocity = Vector3d(0.1, 0, 0);
+      if (dimensions == 3) {
+        std::get<wavetank::BoxTank>(scene.tank.shape).size.y() = 0.4;  // twice the support
+        scene.fluid.fill = {wavetank::Box{Vector3d::Zero(), Vector3d(0.15, 0.4, 0.2)}};
+      }
+      for (const auto elements : {wavetank::WallElements::semi_analytical, wavetank::WallElements::facet}) {
+        scene.numerics.walls.elements = elements;
+        run(device, scene);
+      }
+      scene.bodies.clear();
+      scene.numerics.walls.method = wavetank::WallMethod::ghost;
+      scene.numerics.walls.repulsion = 0.1;
+      run(device, scene, {Vector3d::Zero()});
+    }
     std::set<std::string> kernels;
     for (const auto& timing : device.timings()) kernels.insert(timing.kernel);
     std::printf("kernels run:");

@@ -101,6 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
               "  spacing:",
               "  xyzzyx: 1\n  spacing:",
               {"case.yaml:6: fluid/xyzzyx", "the keys of fluid are density, viscosity"}},
+        Fault{"MonolithicFacets",
+              "slip: no_slip",
+              "shepard: monolithic, elements: facet",
+              {"case.yaml:16: numerics/walls/shepard is monolithic", "choose geometric, or other elements"}},
+        Fault{"RepulsionWithoutGhosts", "slip: no_slip", "repulsion: 0.1", {"case.yaml:16: numerics/walls/repulsion is for ghosts only"}},
+        Fault{
+            "GhostsWithABody", "slip: no_slip", "method: ghost", {"case.yaml:16: numerics/walls/method is ghost", "leave out the bodies"}},
         Fault{"NegativeDensity", "1000", "-3", {"case.yaml:5: fluid/density is -3; it must be greater than 0 (kg/m³)"}},
         Fault{"WordForANumber", "1000", "heavy", {"case.yaml:5: fluid/density is heavy; it must be a number greater than 0 (kg/m³)"}},
         Fault{"NumberWithAUnit", "1000", "\"1000 kg\"", {"case.yaml:5: fluid/density is 1000 kg; it must be a number"}},

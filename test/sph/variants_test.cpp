@@ -105,6 +105,21 @@ TEST(Variants, EveryPairOfOptionsRunsIn2D) {
   EXPECT_GE(count, 3);
 }
 
+TEST(Variants, EveryKindOfWallRuns) {
+  for (const int dimensions : {2, 3})
+    for (const auto elements : {WallElements::numerical, WallElements::semi_analytical, WallElements::facet})
+      for (const auto shepard : {ShepardFactor::none, ShepardFactor::volumetric, ShepardFactor::monolithic, ShepardFactor::geometric}) {
+        if (shepard == ShepardFactor::monolithic && elements == WallElements::facet) continue;  // refused when the case is read
+        Case scene = column(dimensions == 2 ? Vector3d(0.6, 0, 0.6) : Vector3d(0.4, 0.2, 0.6), 0.05);
+        scene.numerics.walls.elements = elements;
+        scene.numerics.walls.shepard = shepard;
+        scene.numerics.walls.renormalise_divergence = shepard != ShepardFactor::volumetric || dimensions == 2;
+        SCOPED_TRACE(std::to_string(dimensions) + "-D, elements " + std::to_string(static_cast<int>(elements)) + ", factor " +
+                     std::to_string(static_cast<int>(shepard)));
+        runs_three_steps(scene);
+      }
+}
+
 TEST(Variants, EveryOptionRunsIn3D) {
   for (const Choice& choice : {Choice{0, 1, 0, 1, 0, 1}, Choice{2, 0, 1, 0, 1, 0}, Choice{1, 1, 1, 1, 0, 0}}) {
     const Case scene = with(column(Vector3d(0.4, 0.2, 0.6), 0.05), choice);

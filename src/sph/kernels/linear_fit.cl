@@ -32,8 +32,13 @@ INLINE void add_to_fit(linear_fit_t* f, real weight, real pressure, real rx, rea
 
 #define FIT_RIDGE R(0.02)  // of h²
 
-// The fitted pressure at the point itself. The weights' sum must not be zero.
-INLINE real fitted_pressure(__constant const parameters_t* p, const linear_fit_t* f) {
+// The fitted plane: the pressure at the point itself and its slope, what hydrostatics explains left out.
+typedef struct {
+  real value, slope_x, slope_y, slope_z;
+} plane_t;
+
+// The weights' sum must not be zero.
+INLINE plane_t fitted_plane(__constant const parameters_t* p, const linear_fit_t* f) {
   const real scale = R(1.0) / f->weight;
   const real mean = f->pressure * scale;
   const real mx = f->x * scale, mz = f->z * scale;
@@ -42,6 +47,7 @@ INLINE real fitted_pressure(__constant const parameters_t* p, const linear_fit_t
   const real xz = f->xz * scale - mx * mz;
   const real zz = f->zz * scale - mz * mz + ridge;
   const real bx = f->px * scale - mean * mx, bz = f->pz * scale - mean * mz;
+  plane_t plane;
 #if DIMENSIONS == 3
   const real my = f->y * scale;
   const real xy = f->xy * scale - mx * my;
@@ -51,14 +57,16 @@ INLINE real fitted_pressure(__constant const parameters_t* p, const linear_fit_t
   const real c_xx = yy * zz - yz * yz, c_xy = xz * yz - xy * zz, c_xz = xy * yz - xz * yy;
   const real c_yy = xx * zz - xz * xz, c_yz = xy * xz - xx * yz, c_zz = xx * yy - xy * xy;
   const real inverse = R(1.0) / (xx * c_xx + xy * c_xy + xz * c_xz);
-  const real gx = inverse * (c_xx * bx + c_xy * by + c_xz * bz);
-  const real gy = inverse * (c_xy * bx + c_yy * by + c_yz * bz);
-  const real gz = inverse * (c_xz * bx + c_yz * by + c_zz * bz);
-  return mean - (gx * mx + gy * my + gz * mz);
+  plane.slope_x = inverse * (c_xx * bx + c_xy * by + c_xz * bz);
+  plane.slope_y = inverse * (c_xy * bx + c_yy * by + c_yz * bz);
+  plane.slope_z = inverse * (c_xz * bx + c_yz * by + c_zz * bz);
+  plane.value = mean - (plane.slope_x * mx + plane.slope_y * my + plane.slope_z * mz);
 #else
   const real inverse = R(1.0) / (xx * zz - xz * xz);
-  const real gx = inverse * (zz * bx - xz * bz);
-  const real gz = inverse * (xx * bz - xz * bx);
-  return mean - (gx * mx + gz * mz);
+  plane.slope_x = inverse * (zz * bx - xz * bz);
+  plane.slope_y = R(0.0);
+  plane.slope_z = inverse * (xx * bz - xz * bx);
+  plane.value = mean - (plane.slope_x * mx + plane.slope_z * mz);
 #endif
+  return plane;
 }

@@ -1,18 +1,19 @@
 // Momentum of δ-SPH, eqs (35, its sign corrected) and (37) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   du/dt = −1/(γ ρ_i) [Σ_j (p_i+p_j) ∇W V_j + Σ_s (p_i+p_s) n W S − viscosity] + g
 // One pass over the neighbours, the Shepard factor γ included. On elements the wall's pressure p_s is the one found at their centre; facets have no
-// place for it, so there it is the average about the particle itself, p̄_i = Σ_j [p_j + ρ_j g·(x_i − x_j)] W V_j / Σ_j W V_j, carried on to the wall by gravity less the
-// wall's acceleration: ∫ p W dS = p̄_i ∫ W dS + ρ_i (g − a)·∫ (y − x_i) W dS. Not p_i itself: in 3-D tanks at rest that lets pressures oscillate until they
+// place for it, so there it is the plane fitted about the particle itself, p̂ + ∇p̂·(y − x_i), with what hydrostatics explains added by gravity less the wall's
+// acceleration: ∫ p W dS = p̂ ∫ W dS + [∇p̂ + ρ_i (g − a)]·∫ (y − x_i) W dS. Not p_i itself: in 3-D tanks at rest that lets pressures oscillate until they
 // are a fifth of ρ g H.
 //
 // Built with WALL_FORCES, the same sums give what the fluid does to one owner of walls: of each particle's force all that is not an exchange with other
 // particles, V_i [(1/γ_i − 1) Σ_j … + 1/γ_i Σ_s …]. So the walls get exactly what the fluid loses, whatever the elements and the Shepard factor are.
 // (Σ_s alone, the walls' direct share, is 2 ln 2 = 1.39 times the pressure on a flat wall: dividing by γ makes the exchange between particles unequal.)
 #include "walls.cl"
+#include "linear_fit.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 #define SWEEP_BRIMS
-#define NEEDS_AVERAGE (FACETS || THIN_WALLS)
+#define NEEDS_FIT (FACETS || THIN_WALLS)
 
 typedef struct {
   neighbours_t near;
@@ -22,8 +23,9 @@ typedef struct {
   real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
-#if NEEDS_AVERAGE
-  real average_weight, average_pressure;  // Σ W V, Σ [p_j + ρ_j g·(x_i − x_j)] W V
+#if NEEDS_FIT
+  linear_fit_t fit;
+  plane_t fitted;  // once all particles are in the fit
 #endif
 #if WALL_FORCES
   int owner;
@@ -38,16 +40,15 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
   const real distance = sqrt(r2);
   const real slope_volume = kernel_slope(p, distance) * volume;
-#if SHEPARD_VOLUMETRIC || NEEDS_AVERAGE
+#if SHEPARD_VOLUMETRIC || NEEDS_FIT
   const real weight = kernel_value(p, distance) * volume;
 #endif
 #if SHEPARD_VOLUMETRIC
   a->shepard += weight;
 #endif
   const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
-#if NEEDS_AVERAGE
-  a->average_weight += weight;
-  a->average_pressure += weight * (pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz));
+#if NEEDS_FIT
+  add_to_fit(&a->fit, weight, pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz), rx, ry, rz);
 #endif
   const vector_t velocity = neighbour_velocity(&a->near, j);
   const real du = velocity.x - a->u;
@@ -85,6 +86,22 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 }
 
+#if NEEDS_FIT
+INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) {
+  a->fitted = fitted_plane(p, &a->fit);
+#if CLAMP_PRESSURE
+  a->fitted.value = fmax(a->fitted.value, R(0.0));
+#endif
+}
+
+// What the fitted slope and hydrostatics add over a moment ∫ (y − x) W dS.
+INLINE real slope_along(const sweep_t* a, vector_t gravity, vector_t moment) {
+  const vector_t slope = make_vector(a->fitted.slope_x + a->density * gravity.x, a->fitted.slope_y + a->density * gravity.y,
+                                     a->fitted.slope_z + a->density * gravity.z);
+  return dot3(slope, moment);
+}
+#endif
+
 #if VISCOSITY_MORRIS
 #define WALL_DRAG R(1.0)
 #else
@@ -106,8 +123,8 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real foot_x = x + c.distance * c.normal.x, foot_y = y + c.distance * c.normal.y, foot_z = z + c.distance * c.normal.z;
 #if FACETS
-  const real push = (a->pressure + a->average_pressure / a->average_weight) * c.weight +
-                    a->density * dot3(gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z), c.moment);
+  const real push =
+      (a->pressure + a->fitted.value) * c.weight + slope_along(a, gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z), c.moment);
 #else
   const real push = (a->pressure + a->wall_loads[s]) * c.weight;
 #endif
@@ -147,7 +164,8 @@ INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x
   if (a->looking) return;
 #endif
   const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
-  const real push = (a->pressure + a->average_pressure / a->average_weight) * b.weight +
+  // the mean, not the fitted plane: that plane rests on the few particles in sight, and made the noise there three times as great
+  const real push = (a->pressure + a->fit.pressure / a->fit.weight) * b.weight +
                     a->density * (p->gravity_x * b.moment.x + p->gravity_y * b.moment.y + p->gravity_z * b.moment.z);
   a->force_x += push * b.normal.x;
   a->force_y += push * b.normal.y;
@@ -231,6 +249,9 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     a.looking = false;
     a.touched = R(0.0);
     sweep_particles(&a, p, cell_start, images);
+#if NEEDS_FIT
+    finish_fit(&a, p);
+#endif
     const vector_t pair_push = make_vector(a.force_x, a.force_y, a.force_z);
     const vector_t pair_drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
     sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
@@ -260,6 +281,9 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
   sweep_particles(&a, p, cell_start, images);
+#if NEEDS_FIT
+  finish_fit(&a, p);
+#endif
 #if GHOSTS
   a.clearance = R(0.0);  // the guard looks for itself
   add_repulsion(&a, p, images);
