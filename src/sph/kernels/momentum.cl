@@ -20,7 +20,7 @@ typedef struct {
   const walls_t* walls;
   __global const real* wall_loads;
   real u, v, w, pressure, density;
-  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V
+  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
 #if NEEDS_FIT
@@ -59,7 +59,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #else
   const real approach = du * rx + dw * rz;
 #endif
-  // only against a division by zero: the 0.01 h² of [B] and [D] makes the viscosity 2 to 5 % too small
+  // only against a division by zero: the 0.01 h² of the papers makes the viscosity 2 to 5 % too small
   const real inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);
 #if VISCOSITY_MORRIS
   // isotropic for the physical viscosity (MLS paper, eq 14); the artificial one acts along the line of centres all the same
@@ -174,7 +174,7 @@ INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x
 #endif
 
 #if GHOSTS
-// Short-range repulsion by the foot of the particle on each plane ([D] §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
+// Short-range repulsion by the foot of the particle on each plane ([B] of docs/numerics.md, §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
 // at a tenth of it.
 INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global const real* images) {
   for (int k = 0; k < p->images; ++k) {
