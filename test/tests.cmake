@@ -28,15 +28,17 @@ add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/wat
   ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
 
 # Longer runs, which scripts/validate starts.
-add_executable(tank_at_rest EXCLUDE_FROM_ALL test/validation/tank_at_rest.cpp)
-target_link_libraries(tank_at_rest wavetank_simulation)
-target_compile_definitions(tank_at_rest PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
-if(WAVETANK_STANDALONE)
-  set_target_properties(tank_at_rest PROPERTIES EXCLUDE_FROM_ALL FALSE)
-endif()
-if(TARGET tests)
-  add_dependencies(tests tank_at_rest)
-endif()
+foreach(program tank_at_rest step_cost packed_particles)
+  add_executable(${program} EXCLUDE_FROM_ALL test/validation/${program}.cpp)
+  target_link_libraries(${program} wavetank_simulation)
+  target_compile_definitions(${program} PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
+  if(WAVETANK_STANDALONE)
+    set_target_properties(${program} PROPERTIES EXCLUDE_FROM_ALL FALSE)
+  endif()
+  if(TARGET tests)
+    add_dependencies(tests ${program})
+  endif()
+endforeach()
 
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)

@@ -19,7 +19,6 @@ constexpr double touching = 1e-4;  // of the spacing: a way that comes so near t
 struct Part {
   TriangleMesh mesh;
   Outline outline;  ///< in 2-D
-  bool closed = false;
 };
 
 /// Errors of a mesh say whose it is.
@@ -57,13 +56,11 @@ Part read_tank(const Case& checked, const ResourceResolver& resolve) {
     check_surface(part.mesh);
     if (checked.dimensions == 2) part.outline = cut_mesh(part.mesh);
   }
-  part.closed = is_watertight(part.mesh);
   return part;
 }
 
 Part read_body(const BodyCase& body, const Case& checked, const ResourceResolver& resolve) {
   Part part;
-  part.closed = true;
   if (const auto* box = std::get_if<Box>(&body.shape)) {
     for (int axis = 0; axis < 3; ++axis) {
       if ((checked.dimensions == 3 || axis != 1) && !(box->max[axis] > box->min[axis]))
@@ -241,6 +238,7 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
 
   OpenSpace open(layout.domain, checked.dimensions, layout.spacing, grid, Walls::all);
   open.flood(layout.particles);
+  layout.open_top = open.open_top();
   add_walls(parts, open, grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
@@ -248,7 +246,6 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
 
   for (Part& part : parts) {
     layout.meshes.push_back(std::move(part.mesh));
-    layout.closed.push_back(part.closed);
   }
   return layout;
 }

@@ -83,13 +83,6 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
   return result;
 }
 
-bool is_watertight(const TriangleMesh& mesh) {
-  for (const Vector3i& across : neighbours_of(mesh)) {
-    if (across.minCoeff() < 0) return false;
-  }
-  return !mesh.triangles.empty();
-}
-
 void remove_degenerate_triangles(TriangleMesh& mesh) {
   std::vector<Vector3i> collinear, solid;
   for (const Vector3i& t : mesh.triangles) {

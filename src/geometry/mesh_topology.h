@@ -12,9 +12,6 @@ using Neighbours = std::vector<Vector3i>;
 /// Throws Error where more than two triangles share an edge.
 Neighbours neighbours_of(const TriangleMesh& mesh);
 
-/// Whether every edge is shared by two triangles.
-bool is_watertight(const TriangleMesh& mesh);
-
 /// Removes triangles without area. Where one has three distinct corners in a line, the triangle on its long side is split at the middle
 /// one, so that a closed mesh stays closed.
 void remove_degenerate_triangles(TriangleMesh& mesh);

@@ -42,11 +42,15 @@ void OpenSpace::step(const int voxel[3], const Vector3d& position, int axis, int
   other[axis] += way;
   const bool outside = other[axis] < 0 || other[axis] >= count_[axis];
   const bool over_the_top = outside && axis == 2 && way > 0;
-  if (over_the_top || (outside && escape_)) return;
+  if (over_the_top ? open_top_ : outside && escape_) return;
   if (!outside && reached_[index(other)]) return;
   Vector3d target = position;
   target[axis] += way * side_[axis];
   if (target.z() >= top || grid_.crosses(position, target, walls_)) return;
+  if (over_the_top) {
+    open_top_ = true;
+    return;
+  }
   if (outside) {
     escape_ = 0.5 * (position + target);
     return;

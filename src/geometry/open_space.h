@@ -20,6 +20,9 @@ class OpenSpace {
   /// Whether the flood passed a voxel near `about` that can be seen from `from`, a place in the domain.
   bool reached(const Vector3d& from, const Vector3d& about) const;
 
+  /// Whether the flood found the domain's top open.
+  bool open_top() const { return open_top_; }
+
   /// Where the flood found the domain's side or bottom open, if it did. The domain's top may be open.
   const std::optional<Vector3d>& escape() const { return escape_; }
 
@@ -36,6 +39,7 @@ class OpenSpace {
   Vector3d side_;
   std::vector<char> reached_;
   std::optional<Vector3d> escape_;
+  bool open_top_ = false;
 };
 
 }  // namespace wavetank

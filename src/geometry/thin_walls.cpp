@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "triangle_grid.h"
+
 namespace wavetank {
 namespace {
 
@@ -15,6 +17,7 @@ class Looker {
  public:
   Looker(const Layout& layout, int dimensions, double thickness)
       : facets_(layout.facets), dimensions_(dimensions), thickness_((1 - rounding) * thickness), tolerance_(1e-4 * layout.spacing) {
+    if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), thickness, tolerance_);
     for (const Facet& facet : facets_) {
       Box box{facet.corners[0], facet.corners[0]};
       for (const Vector3d& corner : facet.corners) {
@@ -28,7 +31,9 @@ class Looker {
   /// How thick the wall is behind a place; none if it is thicker than asked.
   std::optional<double> look(const Vector3d& place, const Vector3d& normal) const {
     std::optional<double> least;
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
+    if (!grid_) return least;
+    const Vector3d end = place + thickness_ * normal, margin = Vector3d::Constant(tolerance_);
+    for (const int f : grid_->overlapping({place.cwiseMin(end) - margin, place.cwiseMax(end) + margin})) {
       const Facet& facet = facets_[f];
       const double facing = facet.normal.dot(normal);
       if (facing > opposite) continue;
@@ -42,6 +47,14 @@ class Looker {
   }
 
  private:
+  /// In 2-D a segment is a triangle without area.
+  static std::vector<WallTriangle> as_triangles(const std::vector<Facet>& facets, int dimensions) {
+    std::vector<WallTriangle> triangles;
+    for (const Facet& facet : facets)
+      triangles.push_back({facet.corners[0], facet.corners[1], facet.corners[dimensions == 2 ? 1 : 2], facet.owner});
+    return triangles;
+  }
+
   bool covers(const Facet& facet, const Vector3d& point) const {
     if (dimensions_ == 2) return true;  // the bounding box has said so
     const Vector3d turn = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
@@ -56,6 +69,7 @@ class Looker {
   std::vector<Box> boxes_;
   int dimensions_;
   double thickness_, tolerance_;
+  std::optional<TriangleGrid> grid_;
 };
 
 /// Points all over a facet, a few an edge.

@@ -80,7 +80,7 @@ Section<TankCase> tank_section() {
   section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
   add_mesh_keys(section, &TankCase::shape);
   section.key("splash_guard", &TankCase::splash_guard, flag(), "",
-              "Keeps spray above the tank's highest point over its bounding box, as by smooth walls; without it, a particle that flies "
+              "Keeps spray above the tank's highest point over the tank, as if its walls went on upwards; without it, a particle that flies "
               "out stops the run.");
   section.key("periodic", &TankCase::periodic, axes(), "",
               "Directions in which the tank repeats itself: it has no walls at these ends, and what leaves at one comes in at the other.");
@@ -134,6 +134,9 @@ Section<NumericsCase> numerics_section() {
   Section<PackingCase> packing;
   packing.key("iterations", &PackingCase::iterations, whole_number(between(0, 100000)), "",
               "Steps of packing the particles before the start; 0 starts from the lattice.");
+  packing.key(
+      "settling", &PackingCase::settling, number(between(0, 100)), "4 H/c₀",
+      "Damped time before the start, in which the water comes to rest with its free sides held; H is its greatest depth. 0 leaves it out.");
   Section<NumericsCase> section;
   section.key("scheme", &NumericsCase::scheme, choice<Scheme>({{"delta_sph", Scheme::delta_sph}}), "", "The SPH scheme.");
   section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",

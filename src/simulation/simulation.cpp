@@ -11,7 +11,6 @@
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/compute/device.h"
-#include "wavetank/geometry/thin_walls.h"
 #include "wavetank/instruments/recorder.h"
 #include "wavetank/scene/case_reader.h"
 #include "wavetank/sph/solver.h"
@@ -65,8 +64,8 @@ std::string flow_of(Case scene, const Layout& layout) {
   return write_case(scene) + "geometry " + std::to_string(fingerprint(layout)) + "\n";
 }
 
-void tell_of_thin_walls(const Case& scene, const Layout& layout, const Discretisation& discretisation) {
-  const std::optional<ThinWall> wall = find_thin_parts(layout, scene.dimensions, discretisation.support).thinnest;
+void tell_of_thin_walls(const Case& scene, const Discretisation& discretisation, const Solver& solver) {
+  const std::optional<ThinWall> wall = solver.thinnest_wall();
   if (!wall) return;
   const std::string whose = wall->owner == 0 ? "the tank" : "body " + scene.bodies[wall->owner - 1].name;
   log(LogLevel::info, whose + " is only " + number(wall->thickness) + " m thick at " + point(wall->place) +
@@ -85,7 +84,7 @@ struct Simulation::Parts {
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
         recorder(scene, layout, *solver) {
-    tell_of_thin_walls(scene, layout, discretisation);
+    tell_of_thin_walls(scene, discretisation, *solver);
   }
 
   Layout laid_out(const Case& checked) const {
@@ -148,7 +147,8 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
   Parts& parts = *parts_;
   const int iterations = parts.scene.numerics.packing.iterations;
   parts.packing = parts.solver->pack(iterations, [&](double fraction) { parts.progress("packing", fraction); });
-  parts.report = parts.solver->start();
+  parts.report =
+      parts.solver->settle(parts.scene.numerics.packing.settling, [&](double fraction) { parts.progress("settling", fraction); });
   parts.check(parts.report);
   parts.initial_fluid = parts.solver->save();
   parts.initial_time_step = parts.report.time_step;
@@ -292,6 +292,7 @@ std::string Simulation::summary() const {
   line("bounds on the time step", "acoustic " + number(d.acoustic_time) + " s at rest, viscous " + number(d.viscous_time) + " s");
   line("packing", std::to_string(parts.packing.iterations) + " iterations, h|E| from " + number(parts.packing.first_error, "%.3g") +
                       " to " + number(parts.packing.last_error, "%.3g"));
+  line("settling", number(parts.scene.numerics.packing.settling) + " periods of the slowest sound");
   line("device memory", number(static_cast<double>(parts.solver->device_memory()) / 1e6, "%.1f") + " MB, " +
                             number(static_cast<double>(parts.solver->device_memory()) / static_cast<double>(count), "%.0f") +
                             " bytes a particle");
@@ -310,7 +311,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const Discretisation discretisation = discretise(scene, layout);
   const compute::Device device(compute::choose_device(scene.device));
   const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
-  tell_of_thin_walls(scene, layout, discretisation);
+  tell_of_thin_walls(scene, discretisation, *solver);
   solver->start();
   solver->advance();  // the first launch of a kernel may still compile it
   constexpr int measured_steps = 3;

@@ -43,7 +43,7 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
   const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper.z() - d.lower.z()));
   d.rim = layout.domain.max.z();
-  d.splash_guard = settled_case.tank.splash_guard;
+  d.splash_guard = settled_case.tank.splash_guard && layout.open_top;
   d.origin = d.lower;
   if (d.dimensions == 2) d.origin.y() = 0.0;
 
@@ -54,8 +54,7 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
     d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil(extent / d.support)) + 2;
     total *= d.cells[axis];
   }
-  const bool has_lid = !layout.closed.empty() && layout.closed[0];
-  if (!has_lid) d.upper.z() += throw_height;
+  if (layout.open_top) d.upper.z() += throw_height;
   if (total > std::numeric_limits<int>::max() / 4.0)
     throw Error("the tank needs " + std::to_string(total) +
                 " grid cells of the support's size, more than can be indexed: raise fluid/spacing.");

@@ -67,6 +67,15 @@ std::vector<Real> image_values(const std::vector<TankImage>& images) {
   return values;
 }
 
+Layout walls_and_lid(const Layout& layout) {
+  Layout result;
+  result.walls = layout.walls;
+  result.facets = layout.facets;
+  result.triangles = layout.triangles;
+  result.lid = layout.lid;
+  return result;
+}
+
 int padded(int count) { return (count + 15) / 16 * 16; }
 
 }  // namespace
@@ -97,7 +106,8 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       spare_id_(device, count_),
       kind_(kind_of(scene.numerics.walls)),
       thin_(find_thin_parts(layout, scene.dimensions, discretisation.support)),
-      walls_(make_walls(layout)),
+      closed_(walls_and_lid(layout)),
+      walls_(make_walls(true, {})),
       motions_(device, centres.size() * field::motion_count),
       motion_centres_(device, 3 * centres.size()),
       loads_(device, kind_ == WallKind::facets ? 1 : walls_.stride),
@@ -113,20 +123,14 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   centres_ = centres;
   ghosts_ = scene.numerics.walls.method == WallMethod::ghost;
   elements_ = kind_ != WallKind::facets;
-  closed_.walls = layout.walls;
-  closed_.facets = layout.facets;
-  closed_.triangles = layout.triangles;
-  closed_.lid = layout.lid;
   std::vector<Facet> barriers;
   for (std::size_t f = 0; f < layout.facets.size(); ++f)
     if (thin_.facets[f]) barriers.push_back(layout.facets[f]);
   barriers_ = Barriers<Real>(device, barriers, thin_.brims, discretisation_);
   const std::vector<TankImage> images = tank_images(case_, layout, discretisation_);
   images_ = Buffer(device, image_values<Real>(images));
-  const KernelParameters<Real> parameters = kernel_parameters<Real>(case_, layout, discretisation_, static_cast<int>(images.size()));
-  std::vector<char> bytes(sizeof parameters);
-  std::memcpy(bytes.data(), &parameters, sizeof parameters);
-  parameters_ = compute::Buffer<char>(device_, bytes);
+  values_ = kernel_parameters<Real>(case_, layout, discretisation_, static_cast<int>(images.size()));
+  upload_parameters(values_);
   options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), false, thin_.thinnest.has_value());
   grid_ = ParticleGrid(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_);
   build_kernels();
@@ -139,28 +143,41 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
 }
 
 template <class Real>
-WallArrays<Real> SphSolver<Real>::make_walls(const Layout& layout) const {
-  if (kind_ == WallKind::rectangles) return WallArrays<Real>(device_, layout.walls, thin_.walls, discretisation_);
-  if (kind_ == WallKind::facets) return WallArrays<Real>(device_, layout.facets, thin_.facets, kind_, discretisation_);
-  return WallArrays<Real>(device_, layout.triangles, thin_.triangles, kind_, discretisation_);
+void SphSolver<Real>::upload_parameters(const KernelParameters<Real>& values) {
+  std::vector<char> bytes(sizeof values);
+  std::memcpy(bytes.data(), &values, sizeof values);
+  parameters_ = compute::Buffer<char>(device_, bytes);
 }
 
 template <class Real>
-WallArrays<Real> SphSolver<Real>::make_closed_walls(bool guarding) const {
+WallArrays<Real> SphSolver<Real>::make_walls(bool own, const std::vector<WallElement>& lid) const {
   if (kind_ == WallKind::rectangles) {
-    std::vector<WallElement> closed = closed_.walls;
-    closed.insert(closed.end(), closed_.lid.begin(), closed_.lid.end());
-    return WallArrays<Real>(device_, closed, thin_.walls, discretisation_);
+    std::vector<WallElement> elements = closed_.walls;
+    elements.insert(elements.end(), lid.begin(), lid.end());
+    return WallArrays<Real>(device_, elements, thin_.walls, discretisation_);
   }
-  std::vector<Facet> closed = kind_ == WallKind::facets ? closed_.facets : closed_.triangles;
-  if (ghosts_ && !guarding) closed.clear();  // the ghosts themselves are the walls
-  for (const WallElement& element : closed_.lid) {
+  std::vector<Facet> facets;
+  if (own) facets = kind_ == WallKind::facets ? closed_.facets : closed_.triangles;
+  for (const WallElement& element : lid) {
     const std::vector<Facet> parts = facets_of(element, case_.dimensions);
-    closed.insert(closed.end(), parts.begin(), parts.end());
+    facets.insert(facets.end(), parts.begin(), parts.end());
   }
   const std::vector<bool> none;
   const std::vector<bool>& thin = kind_ == WallKind::facets ? thin_.facets : thin_.triangles;
-  return WallArrays<Real>(device_, closed, ghosts_ && !guarding ? none : thin, kind_, discretisation_);
+  return WallArrays<Real>(device_, facets, own ? thin : none, kind_, discretisation_);
+}
+
+template <class Real>
+WallArrays<Real> SphSolver<Real>::make_supported_walls() const {
+  std::vector<WallElement> lid;
+  for (const WallElement& element : closed_.lid)
+    if (element.normal.z() < 0.5) lid.push_back(element);
+  if (ghosts_ && !lid.empty())
+    throw Error(
+        "numerics/packing/settling needs the tank's walls on all sides of the water where numerics/walls/method is ghost; set it to 0, or "
+        "choose "
+        "boundary_integral.");
+  return make_walls(true, lid);
 }
 
 template <class Real>
@@ -188,16 +205,16 @@ void SphSolver<Real>::set_wall_motions(const std::vector<WallMotion>& motions) {
 template <class Real>
 void SphSolver<Real>::build_kernels() {
   const std::string fast = options_ + " -cl-fast-relaxed-math";
-  const auto sweep = [&](const char* file, const char* name, const std::string& options) {
+  const auto kernel_of = [&](const char* file, const char* name, const std::string& options) {
     return compute::Program(device_, sources_, file, options).kernel(name);
   };
-  continuity_kernel_ = sweep("continuity.cl", "continuity", fast);
-  momentum_kernel_ = sweep("momentum.cl", "momentum", fast + " -DWALL_FORCES=0");
-  forces_kernel_ = sweep("momentum.cl", "wall_forces", fast + " -DWALL_FORCES=1");
-  gradient_kernel_ = sweep("density_gradient.cl", "density_gradient", fast);
-  if (elements_) loads_kernel_ = sweep("wall_loads.cl", "wall_loads", fast);
-  packing_kernel_ = sweep("packing.cl", "packing", fast);
-  guard_kernel_ = sweep("guard.cl", "guard", options_);
+  continuity_kernel_ = kernel_of("continuity.cl", "continuity", fast);
+  momentum_kernel_ = kernel_of("momentum.cl", "momentum", fast + " -DWALL_FORCES=0");
+  forces_kernel_ = kernel_of("momentum.cl", "wall_forces", fast + " -DWALL_FORCES=1");
+  gradient_kernel_ = kernel_of("density_gradient.cl", "density_gradient", fast);
+  if (elements_) loads_kernel_ = kernel_of("wall_loads.cl", "wall_loads", fast);
+  packing_kernel_ = kernel_of("packing.cl", "packing", fast);
+  guard_kernel_ = kernel_of("guard.cl", "guard", options_);
   const compute::Program points(device_, sources_, "points.cl", fast);
   points_kernel_ = points.kernel("points");
   surface_kernel_ = points.kernel("surface");
@@ -228,6 +245,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
     state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
   levels_ = layout.levels;
+  for (int i = 0; i < count_; ++i) depth_ = std::max(depth_, levels_[i] - layout.particles[i].z());
   state_.upload(state);
   id_.upload(id);
   derive_.launch(count_, parameters_, count_, state_, stride_);
@@ -240,36 +258,34 @@ void SphSolver<Real>::sort() {
 }
 
 template <class Real>
+template <class... Others>
+void SphSolver<Real>::sweep(const compute::Kernel& kernel, int count, const Buffer& state, const WallArrays<Real>& walls,
+                            const Others&... others) {
+  kernel.launch(count, parameters_, count, grid_.starts(), state, stride_, walls.starts, walls.list, walls.fields, walls.stride, motions_,
+                barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts, barriers_.brim_list, barriers_.brims, images_,
+                others...);
+}
+
+template <class Real>
 void SphSolver<Real>::load_walls(const Buffer& state) {
   if (!elements_) return;  // a facet's pressure is that of the particle that feels it
-  loads_kernel_.launch(walls_.count, parameters_, walls_.count, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
-                       walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                       barriers_.brim_list, barriers_.brims, images_, loads_);
+  sweep(loads_kernel_, walls_.count, state, walls_, loads_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates() {
-  if (case_.numerics.density_diffusion == DensityDiffusion::antuono)
-    gradient_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                            walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                            barriers_.brim_list, barriers_.brims, images_, gradient_);
-  continuity_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                            walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                            barriers_.brim_list, barriers_.brims, images_, gradient_, rates_);
+  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) sweep(gradient_kernel_, count_, state_, walls_, gradient_);
+  sweep(continuity_kernel_, count_, state_, walls_, gradient_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(const Buffer& state) {
-  momentum_kernel_.launch(count_, parameters_, count_, grid_.starts(), state, stride_, walls_.starts, walls_.list, walls_.fields,
-                          walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                          barriers_.brim_list, barriers_.brims, images_, loads_, rates_);
+  sweep(momentum_kernel_, count_, state, walls_, loads_, rates_);
 }
 
 template <class Real>
 void SphSolver<Real>::guard() {
-  guard_kernel_.launch(count_, parameters_, count_, walls_.starts, walls_.list, walls_.fields, walls_.stride, motions_, barriers_.starts,
-                       barriers_.list, barriers_.planes, barriers_.brim_starts, barriers_.brim_list, barriers_.brims, images_, rates_,
-                       half_, time_step_, state_, stride_, guard_hits_);
+  sweep(guard_kernel_, count_, state_, walls_, rates_, half_, time_step_, guard_hits_);
 }
 
 template <class Real>
@@ -322,7 +338,13 @@ StepReport SphSolver<Real>::watch() {
 
 template <class Real>
 StepReport SphSolver<Real>::start() {
-  // hydrostatic below the free surface that the particle was filled under, along the gravity's vertical component
+  set_hydrostatic();
+  return start_at_rest();
+}
+
+template <class Real>
+void SphSolver<Real>::set_hydrostatic() {
+  // below the free surface that the particle was filled under, along the gravity's vertical component
   std::vector<Real> state = state_.download();
   const std::vector<std::uint32_t> id = id_.download();
   const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
@@ -333,9 +355,15 @@ StepReport SphSolver<Real>::start() {
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
     state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
-    for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
-      state[static_cast<std::size_t>(f) * stride_ + i] = Real(0);
   }
+  state_.upload(state);
+}
+
+template <class Real>
+StepReport SphSolver<Real>::start_at_rest() {
+  std::vector<Real> state = state_.download();
+  for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
+    std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0));
   state_.upload(state);
   derive_.launch(count_, parameters_, count_, state_, stride_);
   load_walls(state_);
@@ -346,17 +374,48 @@ StepReport SphSolver<Real>::start() {
 }
 
 template <class Real>
+StepReport SphSolver<Real>::settle(double periods, const std::function<void(double)>& progress) {
+  StepReport report = start();
+  const double sound_speed = discretisation_.sound_speed;
+  const double duration = case_.gravity.z() == 0 ? 0.0 : periods * 4.0 * depth_ / sound_speed;
+  if (duration == 0) return report;
+  WallArrays<Real> supported = make_supported_walls();
+
+  KernelParameters<Real> damped = values_;
+  damped.damping = static_cast<Real>(std::acos(-1.0) * sound_speed / depth_);
+  damped.gravity_x = damped.gravity_y = damped.hydrostatic_x = damped.hydrostatic_y = Real(0);
+  const std::vector<Real> moving = motions_.download();
+  std::vector<Real> still = moving;
+  for (std::size_t k = 0; k < still.size(); ++k)
+    if (k % field::motion_count >= 3) still[k] = Real(0);
+  upload_parameters(damped);
+  motions_.upload(still);
+  std::swap(walls_, supported);
+  Buffer loads(device_, elements_ ? walls_.stride : 1);
+  std::swap(loads_, loads);
+  report = start_at_rest();
+  for (double time = 0; time < duration && report.sound();) {
+    time += report.time_step;
+    report = advance();
+    if (progress) progress(std::min(time / duration, 1.0));
+  }
+  std::swap(loads_, loads);
+  std::swap(walls_, supported);
+  motions_.upload(moving);
+  upload_parameters(values_);
+  return report.sound() ? start_at_rest() : report;
+}
+
+template <class Real>
 PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
   PackingReport report;
-  const WallArrays<Real> closed = make_closed_walls(false);
-  const WallArrays<Real> of_guard = ghosts_ ? make_closed_walls(true) : WallArrays<Real>();
+  const WallArrays<Real> closed = make_walls(!ghosts_, closed_.lid);  // the ghosts themselves are the walls
+  const WallArrays<Real> of_guard = ghosts_ ? make_walls(true, closed_.lid) : WallArrays<Real>();
   const WallArrays<Real>& guarded = ghosts_ ? of_guard : closed;
   Buffer total(device_, 2);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
-    packing_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, closed.starts, closed.list, closed.fields,
-                           closed.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                           barriers_.brim_list, barriers_.brims, images_, rates_);
+    sweep(packing_kernel_, count_, state_, closed, rates_);
     if (k % report_interval == 0 || k == iterations) {
       packing_total_.launch(1, count_, rates_, stride_, total);
       report.last_error = total.download()[0];
@@ -366,9 +425,7 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     report.iterations = k;
     if (k == iterations) break;
     move_packed_.launch(count_, parameters_, count_, state_, half_, stride_, rates_);
-    guard_kernel_.launch(count_, parameters_, count_, guarded.starts, guarded.list, guarded.fields, guarded.stride, motions_,
-                         barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts, barriers_.brim_list, barriers_.brims,
-                         images_, rates_, half_, time_step_, state_, stride_, guard_hits_);
+    sweep(guard_kernel_, count_, state_, guarded, rates_, half_, time_step_, guard_hits_);
     sort();
   }
   return report;
@@ -390,9 +447,7 @@ std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::
 template <class Real>
 std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
-  points_kernel_.launch(points.count, parameters_, points.count, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                        walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                        barriers_.brim_list, barriers_.brims, images_, points.points, points.results);
+  sweep(points_kernel_, points.count, state_, walls_, points.points, points.results);
   const std::vector<Real> results = points.results.download();
   std::vector<PointValue> values(points.count);
   for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
@@ -405,9 +460,7 @@ std::vector<WallWrench> SphSolver<Real>::wrenches() {
   load_walls(state_);  // at this instant; the step found its own in its middle
   for (std::size_t owner = 0; owner < centres_.size(); ++owner) {
     // the spare state is free between two sortings
-    forces_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                          walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                          barriers_.brim_list, barriers_.brims, images_, loads_, static_cast<int>(owner), motion_centres_, spare_);
+    sweep(forces_kernel_, count_, state_, walls_, loads_, static_cast<int>(owner), motion_centres_, spare_);
     wrench_chunks_.launch(chunks_, count_, spare_, stride_, wrench_parts_);
     wrench_total_.launch(1, chunks_, wrench_parts_, wrench_);
     const std::vector<Real> total = wrench_.download();
@@ -433,9 +486,7 @@ template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
   Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
-  surface_kernel_.launch(count_, parameters_, count_, grid_.starts(), state_, stride_, walls_.starts, walls_.list, walls_.fields,
-                         walls_.stride, motions_, barriers_.starts, barriers_.list, barriers_.planes, barriers_.brim_starts,
-                         barriers_.brim_list, barriers_.brims, images_, results);
+  sweep(surface_kernel_, count_, state_, walls_, results);
   const std::vector<Real> surface = results.download();
   FluidState fluid;
   fluid.id = id_.download();

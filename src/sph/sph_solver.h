@@ -23,9 +23,11 @@ class SphSolver final : public Solver {
 
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override;
   StepReport start() override;
+  StepReport settle(double periods, const std::function<void(double)>& progress) override;
   StepReport advance() override;
   void set_wall_motions(const std::vector<WallMotion>& motions) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
+  std::optional<ThinWall> thinnest_wall() const override { return thin_.thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;
@@ -40,9 +42,17 @@ class SphSolver final : public Solver {
   struct DevicePoints;
 
   void build_kernels();
-  WallArrays<Real> make_walls(const Layout& layout) const;
-  /// The walls with the lid, as packing needs them; `guarding`: as its guard does.
-  WallArrays<Real> make_closed_walls(bool guarding) const;
+  /// The walls, and of the lid what holds the water up or to the side, as settling needs them.
+  WallArrays<Real> make_supported_walls() const;
+  /// With or without the case's own walls.
+  WallArrays<Real> make_walls(bool own, const std::vector<WallElement>& lid) const;
+  void upload_parameters(const KernelParameters<Real>& values);
+  /// Queues a kernel that goes over the neighbours of `count` particles, points or walls; `others` are its own arguments.
+  template <class... Others>
+  void sweep(const compute::Kernel& kernel, int count, const Buffer& state, const WallArrays<Real>& walls, const Others&... others);
+  void set_hydrostatic();
+  /// Zero velocities, and all that follows from the positions and compressions.
+  StepReport start_at_rest();
   void upload_particles(const Layout& layout);
   std::vector<Stage> symplectic();
   void sort();
@@ -60,19 +70,21 @@ class SphSolver final : public Solver {
   int chunks_ = 0;
   std::string options_;
   compute::SourceFiles sources_;
+  KernelParameters<Real> values_;
   compute::Buffer<char> parameters_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners
   bool ghosts_ = false;
   bool elements_ = false;       ///< the walls are elements, with a pressure of their own
   std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
+  double depth_ = 0;            ///< greatest, of a particle below its level
   Buffer state_, spare_, half_, rates_, gradient_;
   compute::Buffer<std::uint32_t> id_, spare_id_;
   ParticleGrid grid_;
   WallKind kind_;
   ThinParts thin_;
+  Layout closed_;  ///< the walls and the lid alone
   WallArrays<Real> walls_;
   Barriers<Real> barriers_;
-  Layout closed_;  ///< the walls and the lid alone, for packing
   Buffer motions_, motion_centres_, images_;
   Buffer loads_;
   Buffer wrench_parts_, wrench_;

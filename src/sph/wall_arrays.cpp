@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace wavetank {
@@ -119,9 +121,33 @@ bool comes_first(const Vector3d& a, const Vector3d& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
+/// The edges that two facets of one plane and one owner have in common.
+class InnerEdges {
+ public:
+  explicit InnerEdges(const std::vector<Facet>& facets) {
+    for (const Facet& facet : facets)
+      for (int k = 0; k < 3; ++k) ++uses_[key(facet, k)];
+  }
+  bool contains(const Facet& facet, int k) const { return uses_.at(key(facet, k)) == 2; }
+
+ private:
+  using Key = std::array<double, 13>;
+  static Key key(const Facet& facet, int k) {
+    const Vector3d* first = &facet.corners[k];
+    const Vector3d* last = &facet.corners[(k + 1) % 3];
+    if (comes_first(*last, *first)) std::swap(first, last);
+    Key key;
+    auto next = key.begin();
+    for (const Vector3d* vector : {first, last, &facet.normal, &facet.plane_point}) next = std::copy_n(vector->data(), 3, next);
+    *next = facet.owner;
+    return key;
+  }
+  std::map<Key, int> uses_;
+};
+
 /// Base, direction, length and sign of each edge: the first three are the edge's own, whichever of its two facets asks.
 template <class Real>
-void set_edges(const Facet& facet, int s, int dimensions, Fields<Real>& fields) {
+void set_edges(const Facet& facet, int s, int dimensions, const InnerEdges& inner, Fields<Real>& fields) {
   for (int k = 0; k < (dimensions == 3 ? 3 : 1); ++k) {
     const Vector3d from = facet.corners[k], to = facet.corners[(k + 1) % 3];
     const bool forward = comes_first(from, to);
@@ -129,7 +155,7 @@ void set_edges(const Facet& facet, int s, int dimensions, Fields<Real>& fields) 
     fields.set_place(edge, s, forward ? from : to);
     fields.set_vector(edge + 3, s, (forward ? to - from : from - to).normalized());
     fields.set(edge + 6, s, (to - from).norm());
-    if (dimensions == 3) fields.set(edge + 7, s, forward ? 1.0 : -1.0);
+    if (dimensions == 3) fields.set(edge + 7, s, (forward ? 1.0 : -1.0) * (inner.contains(facet, k) ? 2.0 : 1.0));
   }
 }
 
@@ -166,6 +192,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     : count(static_cast<int>(facets.size())), stride(std::max(count, 1)), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
+  const InnerEdges inner(whole ? facets : std::vector<Facet>());
   std::vector<Vector3d> centres;
   for (const Facet& facet : facets) centres.push_back(middle_of(facet, d.dimensions));
   const CellOrder cells = whole ? facets_by_cell(facets, d) : sorted_by_cell(centres, d);
@@ -178,7 +205,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     values.set(field::wall_thin, s, is_thin(thin, source) ? 1.0 : 0.0);
     values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
     if (whole) {
-      set_edges(facet, s, d.dimensions, values);
+      set_edges(facet, s, d.dimensions, inner, values);
       continue;
     }
     const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];

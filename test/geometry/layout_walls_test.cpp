@@ -81,7 +81,17 @@ TEST_F(LayoutWalls, AClosedTankHasALid) {
   EXPECT_NEAR(sums.area, 2 * (0.5 + 0.35 + 0.7), 1e-12);
   EXPECT_LT(sums.flux.norm(), 1e-12);
   EXPECT_NEAR(sums.divergence, 3 * 0.35, 1e-12);
-  EXPECT_TRUE(layout.closed[0]);
+  EXPECT_FALSE(layout.open_top);
+}
+
+TEST_F(LayoutWalls, OnlyALidClosesATank) {
+  Case checked = box_case(Vector3d(1, 0.5, 0.5), 0.4, 0.05);
+  EXPECT_TRUE(lay_out(checked).open_top);
+  std::get<BoxTank>(checked.tank.shape).closed = true;
+  EXPECT_FALSE(lay_out(checked).open_top);
+  checked.tank.shape = source(repository_mesh("sphere.stl"));
+  checked.fluid.fill = {FloodFill{Vector3d(0, 0, -0.2), 0.1}};
+  EXPECT_FALSE(lay_out(checked).open_top);
 }
 
 TEST_F(LayoutWalls, AreasOfAnyFlatRegionAreExact) {
@@ -276,7 +286,7 @@ TEST_F(LayoutWalls, OfAThickWalledTankOnlyTheInnerSkinStays) {
   EXPECT_NEAR(sums_of(layout, 0).area, floor + sides, 1e-6);
   EXPECT_NEAR(total(layout.volumes), 0.4 * floor, 1e-6);
   for (const WallElement& wall : layout.walls) EXPECT_GT(wall.centre.z(), -1e-6);
-  EXPECT_TRUE(layout.closed[0]);
+  EXPECT_TRUE(layout.open_top) << "its skins enclose the walls, not the water";
 }
 
 TEST_F(LayoutWalls, RoundTanksFaceOutwards) {

@@ -24,9 +24,11 @@ class ClockedFluid final : public Solver {
 
   PackingReport pack(int, const std::function<void(double)>&) override { return {}; }
   StepReport start() override { return {}; }
+  StepReport settle(double, const std::function<void(double)>&) override { return {}; }
   StepReport advance() override { return {}; }
   void set_wall_motions(const std::vector<WallMotion>&) override {}
   std::size_t particle_count() const override { return 0; }
+  std::optional<ThinWall> thinnest_wall() const override { return {}; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
     auto set = std::make_unique<Points>();
     set->count = points.size();

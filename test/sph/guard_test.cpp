@@ -202,6 +202,43 @@ TEST(SplashGuard, KeepsSprayOverTheTank) {
   EXPECT_EQ(throw_over_the_rim(true, 0, 240), 240);
 }
 
+// A tank that does not fill its bounding box: what comes down outside its walls would be lost.
+TEST(SplashGuard, KeepsSprayOverARoundTank) {
+  for (const WallElements elements : {WallElements::numerical, WallElements::facet}) {
+    Case scene = box_case(Vector3d(1, 1, 1), 0.1, spacing);
+    scene.fluid.sound_speed = sound_speed;
+    scene.tank.shape = MeshSource{std::string(WAVETANK_SOURCE_DIRECTORY) + "/meshes/cylinder_tank.stl"};
+    scene.fluid.fill = {FloodFill{Vector3d(0, 0, 0.05), 0.1}};
+    scene.numerics.walls.elements = elements;
+    Layout layout = lay_out(scene);
+    layout.particles.clear();
+    const int shots = 24;
+    const auto outwards = [](double angle) { return Vector3d(std::cos(angle), std::sin(angle), 0); };
+    for (int k = 0; k < shots; ++k) layout.particles.push_back(0.4 * outwards(0.26 * k) + Vector3d(0, 0, 0.9));
+    layout.volumes.assign(shots, std::pow(spacing, 3));
+    layout.levels.assign(shots, 0.1);
+    Tank tank(scene, layout);
+    tank.solver->start();
+    StateBytes<float> state(*tank.solver);
+    for (std::size_t i = 0; i < shots; ++i) {
+      const Vector3d velocity = outwards(0.26 * state.id(i)) + Vector3d(0, 0, 2.5);
+      for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[axis]);
+    }
+    tank.solver->restore(state.bytes);
+    double highest = 0, time = 0;
+    while (time < 0.8) {
+      const StepReport report = tank.solver->advance();
+      ASSERT_TRUE(report.sound()) << "after " << time << " s at " << report.offender_position.transpose();
+      time += report.time_step;
+      for (const Vector3d& place : tank.solver->download().position) {
+        highest = std::max(highest, place.z());
+        EXPECT_LT(place.head<2>().norm(), 0.5 + 1e-5) << "after " << time << " s at " << place.transpose();
+      }
+    }
+    EXPECT_GT(highest, 1.1) << "none came above the rim";
+  }
+}
+
 TEST(SplashGuard, WithoutItSprayIsLostAndReported) {
   EXPECT_LT(throw_over_the_rim(false, 0.6, 240), 240);
   EXPECT_LT(throw_over_the_rim(false, 0, 240), 240);

@@ -41,7 +41,7 @@ struct Layout {
   std::vector<Vector3d> particles;   ///< centres, m
   std::vector<double> volumes;       ///< of each particle, m³ (2-D: m²)
   std::vector<double> levels;        ///< z of the free surface over each particle, as filled, m
-  std::vector<bool> closed;          ///< of each mesh: encloses a volume
+  bool open_top = true;              ///< water could leave the tank over its highest point
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.

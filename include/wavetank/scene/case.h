@@ -53,7 +53,7 @@ struct BoxTank {
 struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
   bool splash_guard =
-      true;  ///< spray above the rim is kept over the tank, as by smooth walls on its bounding box; else it is lost and the run stops
+      true;  ///< spray above the rim is kept over the tank, as if its walls went on upwards; else it is lost and the run stops
   std::array<bool, 3> periodic{};  ///< along x, y, z: what leaves the tank's bounding box at one end comes in at the other
 };
 
@@ -83,7 +83,7 @@ enum class NegativePressure { allowed, clamped };
 struct WallCase {
   WallMethod method = WallMethod::boundary_integral;
   ShepardFactor shepard = ShepardFactor::geometric;
-  WallElements elements = WallElements::numerical;
+  WallElements elements = WallElements::facet;
   Slip slip = Slip::no_slip;
   bool renormalise_divergence = true;  ///< divide the velocity's divergence by the Shepard factor, as the pressure's gradient
   double repulsion = 0.0;              ///< of ghosts: short-range force as a multiple of (c₀/10)²; 0 = none
@@ -92,6 +92,7 @@ struct WallCase {
 
 struct PackingCase {
   int iterations = 300;  ///< at most; 0 = start from the lattice
+  double settling = 0;   ///< of damped steps before the start, in periods 4 H/c₀ of the slowest sound; 0 = none
 };
 
 struct NumericsCase {

@@ -18,7 +18,7 @@ struct Discretisation {
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();   ///< the watchdog's box, m
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   double rim = 0;            ///< z of the tank's highest point, m
-  bool splash_guard = true;  ///< above the rim, particles are kept over the tank's bounding box
+  bool splash_guard = true;  ///< above the rim, particles are kept within the tank's walls, taken upwards
   int cells[3] = {0, 0, 0};  ///< of the neighbour grid, border included (2-D: y 1)
   double acoustic_time = 0;  ///< bounds on Δt at rest, s
   double viscous_time = 0;

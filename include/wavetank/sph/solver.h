@@ -6,11 +6,13 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wavetank/compute/device.h"
 #include "wavetank/geometry/layout.h"
+#include "wavetank/geometry/thin_walls.h"
 #include "wavetank/scene/case.h"
 #include "wavetank/sph/discretisation.h"
 
@@ -30,6 +32,8 @@ struct StepReport {
   std::uint32_t offender_id = 0;
   Eigen::Vector3d offender_position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
   Eigen::Vector3d offender_velocity = Eigen::Vector3d::Zero();  ///< m/s
+
+  bool sound() const { return offender < 0; }  ///< no particle is in violation
 };
 
 struct PackingReport {
@@ -91,6 +95,11 @@ class Solver {
   virtual PackingReport pack(int iterations, const std::function<void(double fraction)>& progress) = 0;
   /// Hydrostatic pressure, at rest, from the present positions; the first Δt.
   virtual StepReport start() = 0;
+  /// start(), and then the water comes to rest in what the particles make of hydrostatics: steps with damped velocities, gravity's vertical
+  /// part alone and the lid where it is not on top, for `periods` times 4 H/c₀, the slowest period of the sound in water of the greatest
+  /// depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a report in violation
+  /// ends it early.
+  virtual StepReport settle(double periods, const std::function<void(double fraction)>& progress) = 0;
   /// One time step of the case's integrator.
   virtual StepReport advance() = 0;
 
@@ -98,6 +107,8 @@ class Solver {
   virtual void set_wall_motions(const std::vector<WallMotion>& motions) = 0;
 
   virtual std::size_t particle_count() const = 0;
+  /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
+  virtual std::optional<ThinWall> thinnest_wall() const = 0;
   virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;
   virtual std::vector<PointValue> evaluate(const PointSet& points) = 0;
   /// One wrench an owner (0 the tank, 1 + i body i), about `centres` as given to make_solver.

@@ -15,28 +15,16 @@ typedef struct {
 } brim_view_t;
 
 #if DIMENSIONS == 3
-#define BRIM_SCALE R(0.417781725616)
-// ∫ W ρ dρ and ∫ W ρ² dρ from q on, in units of h.
-INLINE real sector_integral(real q) {
-  const real q2 = q * q;
-  return BRIM_SCALE * (R(0.285714285714) + q2 * (R(-0.5) + q2 * (R(0.625) + q * (R(-0.5) + q * (R(0.15625) + q * R(-0.0178571428571))))));
+// ∫ W ρ² dρ from q on, in units of h.
+INLINE real8 sector_moments(real8 q) {
+  const real8 q2 = q * q;
+  return R(0.417781725616) * (R(0.190476190476) + q2 * q * (R(-0.333333333333) + q2 * (R(0.5) + q * (R(-0.416666666667) + q * (R(0.133928571429) - q * R(0.015625))))));
 }
-INLINE real sector_moment(real q) {
-  const real q2 = q * q;
-  return BRIM_SCALE * (R(0.190476190476) + q2 * q * (R(-0.333333333333) + q2 * (R(0.5) + q * (R(-0.416666666667) + q * (R(0.133928571429) - q * R(0.015625))))));
-}
-__constant real brim_place[6] = {R(-0.932469514203), R(-0.661209386466), R(-0.238619186083), R(0.238619186083), R(0.661209386466), R(0.932469514203)};
-__constant real brim_gauss[6] = {R(0.171324492379), R(0.360761573048), R(0.467913934573), R(0.467913934573), R(0.360761573048), R(0.171324492379)};
 #else
-#define BRIM_SCALE R(0.557042300822)
-// ∫ W dρ and ∫ W ρ dρ from q on, in units of h.
+// ∫ W dρ from q on, in units of h.
 INLINE real ray_integral(real q) {
   const real q2 = q * q;
-  return BRIM_SCALE * (R(0.666666666667) - q * (R(1.0) + q2 * (R(-0.833333333333) + q * (R(0.625) + q * (R(-0.1875) + q * R(0.0208333333333))))));
-}
-INLINE real ray_moment(real q) {
-  const real q2 = q * q;
-  return BRIM_SCALE * (R(0.285714285714) + q2 * (R(-0.5) + q2 * (R(0.625) + q * (R(-0.5) + q * (R(0.15625) + q * R(-0.0178571428571))))));
+  return SCALE * (R(0.666666666667) - q * (R(1.0) + q2 * (R(-0.833333333333) + q * (R(0.625) + q * (R(-0.1875) + q * R(0.0208333333333))))));
 }
 #endif
 
@@ -68,19 +56,16 @@ INLINE brim_view_t view_brim(__constant const parameters_t* p, const walls_t* wa
   const real end = fmin(fmax((along + b[BRIM_LENGTH]) * p->inverse_smoothing, -reach), reach);
   if (end <= from) return v;
   const real first = arctangent(from, q), last = arctangent(end, q);
-  real across = R(0.0), sideways = R(0.0);
-  for (int k = 0; k < 6; ++k) {
-    const real angle = R(0.5) * (first + last) + R(0.5) * (last - first) * brim_place[k];
-    const real cosine = cos(angle);
-    const real rho = fmin(q / cosine, R(2.0));
-    const real w = R(0.5) * (last - first) * brim_gauss[k];
-    v.weight += w * sector_integral(rho);
-    across += w * cosine * sector_moment(rho);
-    sideways += w * sin(angle) * sector_moment(rho);
-  }
+  const real half_turn = R(0.5) * (last - first);
+  const real8 angle = R(0.5) * (first + last) + half_turn * GAUSS_PLACE;
+  const real8 cosine = cos(angle);
+  const real8 rho = fmin(q / cosine, R(2.0));
+  const real8 moments = GAUSS_WEIGHT * sector_moments(rho);
+  v.weight = half_turn * sum8(GAUSS_WEIGHT * height_integrals(rho));
+  const real across = half_turn * sum8(cosine * moments), sideways = half_turn * sum8(sin(angle) * moments);
 #else
   v.weight = ray_integral(q);
-  const real across = ray_moment(q), sideways = R(0.0);
+  const real across = height_integral(q), sideways = R(0.0);
 #endif
   v.weight *= p->inverse_smoothing;
   v.moment = make_vector(across * ray.x + sideways * way.x, across * ray.y + sideways * way.y, across * ray.z + sideways * way.z);

@@ -1,6 +1,6 @@
 // Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
 // relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
-// open tank, where there is no wall, on the sides of the tank's bounding box.
+// open tank, where there is no wall: as if the tank's walls went on upwards from the rim, and at the sides of the tank's bounding box.
 #include "walls.cl"
 #define SWEEP_WALLS
 
@@ -10,11 +10,18 @@ typedef struct {
   real x, y, z;  // how far it was set back
   real u, v, w;
   int hits;
+  bool above_rim;
 } sweep_t;
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
-  const contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
+  contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
+  if (a->above_rim) {
+    const real level = sqrt(c.normal.x * c.normal.x + c.normal.y * c.normal.y);
+    if (level < R(0.1) || a->walls->fields[WALL_OWNER * a->walls->stride + s] > R(0.5)) return;
+    c.normal = make_vector(c.normal.x / level, c.normal.y / level, R(0.0));
+    c.distance /= level;
+  }
 #if THIN_WALLS
   const bool thin = a->walls->fields[WALL_THIN * a->walls->stride + s] > R(0.5);
   // a thin wall holds what was on its own side
@@ -57,12 +64,14 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
   return held;
 }
 
-__kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS, __global const real* images, __global const real* rates, __global const real* half_state,
-                    __global const real* time_step, __global real* state, int stride, __global int* hits) {
+__kernel void guard(__constant const parameters_t* p, int count, __global const int* cell_start, __global real* state, int stride, WALL_ARGUMENTS,
+                    __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
+                    __global int* hits) {
   const int i = get_global_id(0);
   if (i >= count) return;
   hits[i] = 0;
-  if (state[FIELD_Z * stride + i] > p->rim_z) {
+  const bool above_rim = state[FIELD_Z * stride + i] > p->rim_z;
+  if (above_rim) {
     const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
     if (p->period_x == R(0.0)) {
       const held_t x = hold_between(state[FIELD_X * stride + i], state[FIELD_U * stride + i], p->lower_x + margin, p->upper_x - margin, p->guard_distance);
@@ -79,9 +88,9 @@ __kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS,
     }
 #endif
   }
-  if (p->guard_distance == R(0.0)) return;
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
-  if (rates[RATE_CLEARANCE * stride + i] > p->guard_distance + R(0.25) * p->spacing) return;
+  const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing;
+  if (!near && !above_rim) return;
   sweep_t a = {0};
   const walls_t walls = WALLS_OF_ARGUMENTS;
   a.walls = &walls;
@@ -93,8 +102,10 @@ __kernel void guard(__constant const parameters_t* p, int count, WALL_ARGUMENTS,
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
-  sweep_walls(&a, p, &walls, images, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
-              state[FIELD_Z * stride + i]);
+  const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
+  if (near) sweep_walls(&a, p, &walls, images, x, y, z);
+  a.above_rim = above_rim;
+  if (above_rim) sweep_walls(&a, p, &walls, images, x, y, p->rim_z - R(0.25) * p->spacing);
   hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;
   state[FIELD_W * stride + i] = a.w;

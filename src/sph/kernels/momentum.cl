@@ -24,6 +24,7 @@ typedef struct {
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
 #if NEEDS_FIT
+  bool fitting;  // there are walls to fit a plane for
   linear_fit_t fit;
   plane_t fitted;  // once all particles are in the fit
 #endif
@@ -40,15 +41,13 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
   const real distance = sqrt(r2);
   const real slope_volume = kernel_slope(p, distance) * volume;
-#if SHEPARD_VOLUMETRIC || NEEDS_FIT
-  const real weight = kernel_value(p, distance) * volume;
-#endif
 #if SHEPARD_VOLUMETRIC
-  a->shepard += weight;
+  a->shepard += kernel_value(p, distance) * volume;
 #endif
   const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
 #if NEEDS_FIT
-  add_to_fit(&a->fit, weight, pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz), rx, ry, rz);
+  if (a->fitting)
+    add_to_fit(&a->fit, kernel_value(p, distance) * volume, pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz), rx, ry, rz);
 #endif
   const vector_t velocity = neighbour_velocity(&a->near, j);
   const real du = velocity.x - a->u;
@@ -197,6 +196,27 @@ INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global
 
 #include "sweep.cl"
 
+#if NEEDS_FIT
+// Whether (x, y, z) may be within the support of a wall.
+INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
+#if FACETS && !IMAGES && !THIN_WALLS
+  __global const real* fields = walls->fields;
+  const int n = walls->stride;
+  const int cell = cell_index(p, x, y, z);
+  bool near = false;
+  for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {
+    const int s = walls->list[k];
+    real distance = fields[WALL_NORMAL_X * n + s] * (fields[WALL_X * n + s] - x) + fields[WALL_NORMAL_Z * n + s] * (fields[WALL_Z * n + s] - z);
+    if (DIMENSIONS == 3) distance += fields[WALL_NORMAL_Y * n + s] * (fields[WALL_Y * n + s] - y);
+    near = near || fabs(distance) < p->support;
+  }
+  return near;
+#else
+  return true;
+#endif
+}
+#endif
+
 INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
                           __global const real* wall_loads) {
   sweep_t a = {0};
@@ -211,6 +231,9 @@ INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global cons
   a.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
   a.shepard = SHEPARD_START;
   a.clearance = p->support;
+#if NEEDS_FIT
+  a.fitting = true;
+#endif
   return a;
 }
 
@@ -280,9 +303,17 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
   if (i >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
-  sweep_particles(&a, p, cell_start, images);
 #if NEEDS_FIT
-  finish_fit(&a, p);
+  // the fit costs as much as all else in the loop over the particles: two loops, so that the compiler leaves it out of one
+  if (near_walls(p, &walls, a.near.x, a.near.y, a.near.z)) {
+    sweep_particles(&a, p, cell_start, images);
+    finish_fit(&a, p);
+  } else {
+    a.fitting = false;
+    sweep_particles(&a, p, cell_start, images);
+  }
+#else
+  sweep_particles(&a, p, cell_start, images);
 #endif
 #if GHOSTS
   a.clearance = R(0.0);  // the guard looks for itself

@@ -39,4 +39,5 @@ int cells_y;
 int cells_z;
 int cells;                // their product
 int images;               // of the tank: periodic shifts and ghosts
+real damping;             // 1/s, of the velocities: only before the start
 real repulsion;           // of ghosts, (m/s)²: short-range force by the wall

@@ -74,7 +74,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     if (axis == 1) continue;
 #endif
     const real before = state[(FIELD_U + axis) * stride + i];
-    const real after = before + step * rates[(RATE_U + axis) * stride + i];
+    const real after = (before + step * rates[(RATE_U + axis) * stride + i]) / (R(1.0) + step * p->damping);
     state[(FIELD_U + axis) * stride + i] = after;
     move(state, stride, axis, i, R(0.5) * step * (before + after));
   }

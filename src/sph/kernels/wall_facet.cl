@@ -1,10 +1,10 @@
 // Facets: the mesh's own flat triangles (2-D: segments) of any size, integrated exactly over the part within the support. In the facet's plane, with
 // the point's foot as the centre, ∫ n·(y−x) Φ dS = d Σ_edges ∫ [G(d) − G(ρ)] dϕ and ∫ W dS = Σ_edges ∫ [H(d) − H(ρ)] dϕ, where G' = −Φ ρ, H' = −W ρ, both
 // zero from 2h on, and ϕ turns with the edge about the foot. With t along the edge and p its distance from the foot, dϕ = p dt/(p² + t²) and
-// p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and six Gauss points give them to 2e-5; the singular part of Φ gives an
-// angle. Lengths below are in units of h.
+// p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and eight Gauss points, taken as one vector, give them to 1e-6; the singular
+// part of Φ gives an angle. Lengths below are in units of h.
 #if DIMENSIONS == 3
-#define WALL_EDGES 8          // three times: base x, y, z, direction x, y, z, length, sign
+#define WALL_EDGES 8          // three times: base x, y, z, direction x, y, z, length, sign (twice as large: the next facet is of the same plane)
 #define EDGE_COUNT 8
 #else
 #define WALL_EDGES 8          // base x, y, z, direction x, y, z, length
@@ -14,16 +14,7 @@
 #define LEAST_HEIGHT R(1.0e-6)
 
 #if DIMENSIONS == 3
-__constant real gauss_place[6] = {R(-0.932469514203), R(-0.661209386466), R(-0.238619186083), R(0.238619186083), R(0.661209386466), R(0.932469514203)};
-__constant real gauss_weight[6] = {R(0.171324492379), R(0.360761573048), R(0.467913934573), R(0.467913934573), R(0.360761573048), R(0.171324492379)};
-
-// Coefficients of H and of the polynomial part of G by powers of ρ.
-#define H0 R(0.119366207319)
-#define H2 R(-0.208890862808)
-#define H4 R(0.261113578510)
-#define H5 R(-0.208890862808)
-#define H6 R(0.0652783946274)
-#define H7 R(-0.00746038795742)
+// Coefficients of the polynomial part of G by powers of ρ.
 #define G0 R(0.119366207319)
 #define G2 R(-0.0696302876026)
 #define G4 R(0.0522227157020)
@@ -32,74 +23,66 @@ __constant real gauss_weight[6] = {R(0.171324492379), R(0.360761573048), R(0.467
 #define G7 R(-0.000932548494678)
 #define QUARTER_PI_INVERSE R(0.0795774715459)
 
-INLINE real height_integral(real q) {
-  const real q2 = q * q;
-  return H0 + q2 * (H2 + q2 * (H4 + q * (H5 + q * (H6 + q * H7))));
-}
-
 INLINE real potential_integral(real q) {
   const real q2 = q * q;
   return G0 + q2 * (G2 + q2 * (G4 + q * (G5 + q * (G6 + q * G7))));
 }
 
-// The angle of the cone over a right triangle: from the foot along p to the edge, and along it by t.
-INLINE real cone_angle(real d, real p, real t) {
+// The angle of the cone over a right triangle: from the foot along p to the edge, and along it by t. As a length: p² ρ + d t².
+INLINE turn_t cone_turn(real d, real p, real t) {
   const real rho = sqrt(d * d + p * p + t * t);
-  return arctangent(t * p * (rho - d), p * p * rho + d * t * t);
+  const turn_t turn = {p * p * rho + d * t * t, t * p * (rho - d)};
+  return turn;
 }
 
-// Signed angle at the foot from (p, from) to (p, to).
-INLINE real plane_angle(real p, real from, real to) { return whole_arctangent(p * (to - from), p * p + from * to); }
+// At the foot from (p, from) to (p, to).
+INLINE turn_t plane_turn(real p, real from, real to) {
+  const turn_t turn = {p * p + from * to, p * (to - from)};
+  return turn;
+}
 
 typedef struct {
   real shepard, weight, moment;
 } edge_t;
 
-INLINE edge_t edge_terms(real d, real p, real from, real to) {
-  edge_t e;
+// `inner`: within the support the edge's share cancels with that of the next facet of the plane, which is in reach too, and is left out.
+INLINE edge_t edge_terms(real d, real p, real from, real to, bool inner) {
+  edge_t e = {R(0.0), R(0.0), R(0.0)};
   const real chord2 = R(4.0) - d * d - p * p;
   const real chord = sqrt(fmax(chord2, R(0.0)));
   const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
-  real outside = plane_angle(p, from, to);
-  real weight = R(0.0), potential = R(0.0), moment = R(0.0);
-  real cone = R(0.0);
+  real outside, cone = R(0.0);
+  if (b > a && inner) return e;
   if (b > a) {
-    outside = plane_angle(p, from, a) + plane_angle(p, b, to);
-    cone = cone_angle(d, p, b) - cone_angle(d, p, a);
-    const real half_length = R(0.5) * (b - a), middle = R(0.5) * (a + b);
+    // beyond the support on the one side or the other; less than half a turn in all, for the edge is straight
+    outside = a > from || b < to ? angle_of(added(plane_turn(p, from, a), plane_turn(p, b, to))) : R(0.0);
+    const turn_t first = cone_turn(d, p, a), last = cone_turn(d, p, b);
+    const turn_t back = {first.cosine, -first.sine};
+    cone = angle_of(added(last, back));
+    const real half_length = R(0.5) * (b - a);
     const real d2 = d * d;
-    for (int k = 0; k < 6; ++k) {
-      const real t = middle + half_length * gauss_place[k];
-      const real rho2 = d2 + p * p + t * t;
-      const real rho = sqrt(rho2);
-      const real inverse = R(1.0) / (d + rho);
-      const real s3 = rho2 + d * (rho + d);
-      const real s5 = rho2 * rho2 + d * rho2 * rho + d2 * s3;
-      const real s7 = rho2 * rho2 * rho2 + d * rho2 * rho2 * rho + d2 * s5;
-      const real s4 = d2 + rho2, s6 = d2 * s4 + rho2 * rho2;
-      weight -= gauss_weight[k] * (H2 + H4 * s4 + H6 * s6 + inverse * (H5 * s5 + H7 * s7));
-      potential -= gauss_weight[k] * (G2 + G4 * s4 + G6 * s6 + inverse * (G5 * s5 + G7 * s7));
-      moment += gauss_weight[k] * height_integral(rho);
-    }
-    weight *= half_length * p;
-    potential *= half_length * p;
-    moment *= half_length;
+    const real8 t = R(0.5) * (a + b) + half_length * GAUSS_PLACE;
+    const real8 rho2 = d2 + p * p + t * t;
+    const real8 rho = sqrt(rho2);
+    const real8 inverse = R(1.0) / (d + rho);
+    const real8 s3 = rho2 + d * (rho + d);
+    const real8 s4 = d2 + rho2;
+    const real8 s5 = rho2 * rho2 + d * rho2 * rho + d2 * s3;
+    const real8 s6 = d2 * s4 + rho2 * rho2;
+    const real8 s7 = rho2 * rho2 * rho2 + d * rho2 * rho2 * rho + d2 * s5;
+    e.weight = -half_length * p * sum8(GAUSS_WEIGHT * (H2 + H4 * s4 + H6 * s6 + inverse * (H5 * s5 + H7 * s7)));
+    e.shepard = -d * half_length * p * sum8(GAUSS_WEIGHT * (G2 + G4 * s4 + G6 * s6 + inverse * (G5 * s5 + G7 * s7)));
+    e.moment = half_length * sum8(GAUSS_WEIGHT * height_integrals(rho));
+  } else {
+    outside = angle_of(plane_turn(p, from, to));
   }
-  e.weight = weight + height_integral(d) * outside;
-  e.shepard = d * potential - QUARTER_PI_INVERSE * cone + (d * potential_integral(d) - QUARTER_PI_INVERSE) * outside;
-  e.moment = moment;
+  e.weight += height_integral(d) * outside;
+  e.shepard += (d * potential_integral(d) - QUARTER_PI_INVERSE) * outside - QUARTER_PI_INVERSE * cone;
   return e;
 }
 #else
 __constant real gauss_place[5] = {R(-0.906179845939), R(-0.538469310106), R(0.0), R(0.538469310106), R(0.906179845939)};
 __constant real gauss_weight[5] = {R(0.236926885056), R(0.478628670499), R(0.568888888889), R(0.478628670499), R(0.236926885056)};
-
-// α of W in units of h; H as in 3-D.
-#define SCALE R(0.557042300822)
-INLINE real height_integral(real q) {
-  const real q2 = q * q;
-  return SCALE * (R(0.285714285714) + q2 * (R(-0.5) + q2 * (R(0.625) + q * (R(-0.5) + q * (R(0.15625) + q * R(-0.0178571428571))))));
-}
 
 typedef struct {
   real weight, potential;
@@ -148,7 +131,7 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
     const real by = (fields[(field + 1) * n + s] - y) * p->inverse_smoothing;
     const real bz = (fields[(field + 2) * n + s] - z) * p->inverse_smoothing;
     const vector_t way = make_vector(fields[(field + 3) * n + s], fields[(field + 4) * n + s], fields[(field + 5) * n + s]);
-    const real sign = fields[(field + 7) * n + s];
+    const real sign = fields[(field + 7) * n + s] > R(0.0) ? R(1.0) : R(-1.0);
     // the base and the direction belong to the edge, not to the facet, so that the two facets that share it see exactly opposite distances
     const vector_t across = cross3(way, c.normal);
     out[k] = make_vector(sign * across.x, sign * across.y, sign * across.z);
@@ -159,9 +142,12 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   const real farthest = fmax(fmax(beside[0], beside[1]), beside[2]);
   c.beside = farthest * p->smoothing_length;
   c.over = farthest <= R(0.0);
-  if (farthest * farthest >= R(4.0) - d * d && farthest > R(0.0)) return c;
+  // a little beyond the support: an edge within it must be so for both its facets, whatever the rounding
+  if (farthest * farthest >= R(4.001) - d * d && farthest > R(0.0)) return c;
   for (int k = 0; k < 3; ++k) {
-    const edge_t e = edge_terms(d, -beside[k], from[k], to[k]);
+    // as long as both facets of the plane show the same side, and are not hidden by themselves
+    const bool inner = !THIN_WALLS && height >= R(0.0) && fabs(fields[(WALL_EDGES + EDGE_COUNT * k + 7) * n + s]) > R(1.5);
+    const edge_t e = edge_terms(d, -beside[k], from[k], to[k], inner);
     shepard += e.shepard;
     c.weight += e.weight;
     along_x -= e.moment * out[k].x;

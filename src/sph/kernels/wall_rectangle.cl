@@ -9,38 +9,59 @@
 #define WALL_GAP_ACROSS 15
 
 #if DIMENSIONS == 3
-// Solid angle between the foot point and the corner (a, b) of a rectangle at distance d ≥ 0, signed by a and b ([C] of docs/numerics.md, B.2). As an arctangent of a quotient
-// it needs no case distinction, keeps its precision for small elements, and tends to ±π/2 on the plane.
-INLINE real corner_angle(real d, real a, real b) { return arctangent(a * b, d * sqrt(d * d + a * a + b * b)); }
+// Solid angle between the foot point and the corner (a, b) of a rectangle at distance d ≥ 0, signed by a and b ([C] of docs/numerics.md, B.2). As an
+// arctangent of a quotient it needs no case distinction, keeps its precision for small elements, and tends to ±π/2 on the plane.
+INLINE turn_t corner_turn(real d, real a, real b) {
+  const turn_t turn = {d * sqrt(d * d + a * a + b * b), a * b};
+  return turn;
+}
+
+INLINE turn_t turned_back(turn_t turn) {
+  turn.sine = -turn.sine;
+  return turn;
+}
+#endif
+
+// Farther than three sides from an element Φ is as smooth as its polynomial part; in squares of the half diagonal.
+#if DIMENSIONS == 3
+#define FAR_ELEMENT R(18.0)
+#else
+#define FAR_ELEMENT R(36.0)
 #endif
 
 // The element's term of γ(x) = 1 + Σ_s ∫ n·(y−x) Φ dS ([C] eqs 8–12 with signs corrected): the polynomial part of Φ by the midpoint rule with its
 // second-order term (the squared sides/24 of the tangential second derivatives), without which walls at right angles miss γ by more than 2e-3; the
-// divergent part exactly, through the angle that the element subtends.
+// divergent part exactly, through the angle that the element subtends, unless the element is far.
 INLINE real rectangle_shepard(__constant const parameters_t* p, real distance, bool over, real along, real across, real half_along, real half_across,
                               real area, real r2) {
 #if SHEPARD_MONOLITHIC
   return distance * area * monolithic_potential(p, r2);
 #else
+  const bool far = r2 > FAR_ELEMENT * (half_along * half_along + half_across * half_across);
+  const real inverse2 = p->inverse_smoothing * p->inverse_smoothing;
+  const real along2 = along * along * inverse2, across2 = across * across * inverse2;
+  const real length2 = R(0.166666666667) * half_along * half_along * inverse2;  // side²/24 in units of h
+  const real width2 = R(0.166666666667) * half_across * half_across * inverse2;
+  potential_t f;
+  if (far)
+    f = whole_potential(p, r2);
+  else
+    f = potential_polynomial(p, r2);
+  const real mean = f.scale * (f.value + (length2 + width2) * f.slope + (length2 * along2 + width2 * across2) * f.bend) * area;
+  if (far) return distance * mean;
   const bool near_behind = over && distance > -BEHIND_TOLERANCE * p->spacing;
   const real side = side_of(p, distance, over);
   const real d = fmax(fabs(distance), LEAST_DISTANCE * p->spacing);
   const real height = near_behind ? fabs(distance) : distance;
-  const real inverse2 = p->inverse_smoothing * p->inverse_smoothing;
-  const potential_t f = potential_polynomial(p, r2);
-  const real along2 = along * along * inverse2, across2 = across * across * inverse2;
-  const real length2 = R(0.166666666667) * half_along * half_along * inverse2;  // side²/24 in units of h
-  const real width2 = R(0.166666666667) * half_across * half_across * inverse2;
-#if DIMENSIONS == 3
-  const real polynomial = f.scale * (f.value + (length2 + width2) * f.slope + (length2 * along2 + width2 * across2) * f.bend);
   const real a0 = along - half_along, a1 = along + half_along;
+#if DIMENSIONS == 3
   const real b0 = across - half_across, b1 = across + half_across;
-  const real angle = corner_angle(d, a1, b1) - corner_angle(d, a0, b1) - corner_angle(d, a1, b0) + corner_angle(d, a0, b0);
-  return height * polynomial * area - R(0.0795774715459) * side * angle;
+  const real angle = angle_of(added(corner_turn(d, a1, b1), turned_back(corner_turn(d, a0, b1)))) +
+                     angle_of(added(corner_turn(d, a0, b0), turned_back(corner_turn(d, a1, b0))));
+  return height * mean - R(0.0795774715459) * side * angle;
 #else
-  const real polynomial = f.scale * (f.value + length2 * (f.slope + along2 * f.bend));
-  const real angle = arctangent(along + half_along, d) - arctangent(along - half_along, d);
-  return height * polynomial * area - R(0.159154943092) * side * angle;
+  const turn_t turn = {d * d + a0 * a1, d * (a1 - a0)};
+  return height * mean - R(0.159154943092) * side * angle_of(turn);
 #endif
 #endif
 }

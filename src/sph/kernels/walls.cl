@@ -53,6 +53,53 @@ INLINE real whole_arctangent(real y, real x) {
   return x < R(0.0) ? (y < R(0.0) ? -half_turn - angle : half_turn - angle) : angle;
 }
 
+// A complex number of any length, whose argument is an angle: angles are added by multiplying, and only their sum is found.
+typedef struct {
+  real cosine, sine;
+} turn_t;
+
+INLINE turn_t added(turn_t a, turn_t b) {
+  const turn_t sum = {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
+  return sum;
+}
+INLINE real angle_of(turn_t a) { return whole_arctangent(a.sine, a.cosine); }
+
+// H(q) = ∫ W ρ dρ from q to 2, in units of h, which ∫ W dS over flat walls and moments along straight ones are made of.
+#if DIMENSIONS == 3
+#if USE_DOUBLE
+typedef double8 real8;
+#else
+typedef float8 real8;
+#endif
+// Eight Gauss points of [−1, 1] as one vector.
+#define GAUSS_PLACE (real8)(R(-0.960289856498), R(-0.796666477414), R(-0.525532409916), R(-0.183434642496), R(0.183434642496), R(0.525532409916), R(0.796666477414), R(0.960289856498))
+#define GAUSS_WEIGHT (real8)(R(0.10122853629), R(0.222381034453), R(0.313706645878), R(0.362683783378), R(0.362683783378), R(0.313706645878), R(0.222381034453), R(0.10122853629))
+
+INLINE real sum8(real8 v) { return ((v.s0 + v.s1) + (v.s2 + v.s3)) + ((v.s4 + v.s5) + (v.s6 + v.s7)); }
+
+#define H0 R(0.119366207319)
+#define H2 R(-0.208890862808)
+#define H4 R(0.261113578510)
+#define H5 R(-0.208890862808)
+#define H6 R(0.0652783946274)
+#define H7 R(-0.00746038795742)
+INLINE real height_integral(real q) {
+  const real q2 = q * q;
+  return H0 + q2 * (H2 + q2 * (H4 + q * (H5 + q * (H6 + q * H7))));
+}
+
+INLINE real8 height_integrals(real8 q) {
+  const real8 q2 = q * q;
+  return H0 + q2 * (H2 + q2 * (H4 + q * (H5 + q * (H6 + q * H7))));
+}
+#else
+#define SCALE R(0.557042300822)  // α of W in units of h
+INLINE real height_integral(real q) {
+  const real q2 = q * q;
+  return SCALE * (R(0.285714285714) + q2 * (R(-0.5) + q2 * (R(0.625) + q * (R(-0.5) + q * (R(0.15625) + q * R(-0.0178571428571))))));
+}
+#endif
+
 // The polynomial part of Φ at q, and what its second tangential derivatives are made of: value'/q and (value'' − value'/q)/q², all to be scaled.
 typedef struct {
   real value, slope, bend, scale;
@@ -71,6 +118,24 @@ INLINE potential_t potential_polynomial(__constant const parameters_t* p, real r
   f.slope = R(-20.0) + q * (R(24.0) + q * (R(-10.0) + q * R(1.42857142857)));
   f.bend = R(24.0) / q + R(-20.0) + q * R(4.28571428571);
   f.scale = R(0.0348151439) * p->inverse_smoothing * p->inverse_smoothing;
+#endif
+  return f;
+}
+
+// Φ itself far from its singularity, as the polynomial part with the singular one added to each member; `scale` stays the polynomial's.
+INLINE potential_t whole_potential(__constant const parameters_t* p, real r2) {
+  potential_t f = potential_polynomial(p, r2);
+  const real inverse_q2 = R(1.0) / (r2 * p->inverse_smoothing * p->inverse_smoothing);
+#if DIMENSIONS == 3
+  const real singular = R(-3.04761904762) * inverse_q2 * sqrt(inverse_q2);  // −1/(4π q³) over the scale
+  f.value += singular;
+  f.slope -= R(3.0) * singular * inverse_q2;
+  f.bend += R(15.0) * singular * inverse_q2 * inverse_q2;
+#else
+  const real singular = R(-4.57142857143) * inverse_q2;  // −1/(2π q²) over the scale
+  f.value += singular;
+  f.slope -= R(2.0) * singular * inverse_q2;
+  f.bend += R(8.0) * singular * inverse_q2 * inverse_q2;
 #endif
   return f;
 }
