@@ -41,8 +41,8 @@ enum Wall {
   // of triangles
   corners = tangent_x,
   triangle_count = corners + 9,
-  // of facets: three edges (2-D: one) of edge_count values each
-  edges = area
+  // of facets, whose area is 0 where they are large: three edges (2-D: one) of edge_count values each
+  edges = tangent_x
 };
 constexpr int edge_count = 8;
 constexpr int barrier_count = 16;

@@ -187,6 +187,8 @@ void SphSolver<Real>::set_wall_motions(const std::vector<WallMotion>& motions) {
   for (std::size_t o = 0; o < centres_.size(); ++o) {
     const WallMotion& motion = motions.at(o);
     moving = moving || moves(motion);
+    if (ghosts_ && moving)
+      throw Error("numerics/walls/method is ghost, whose mirror images stand still: a tank that moves needs boundary_integral.");
     for (const Eigen::Vector3d& vector : {Eigen::Vector3d(centres_[o] - discretisation_.origin), motion.velocity, motion.angular_velocity,
                                           motion.acceleration, motion.angular_acceleration, motion.surface_velocity})
       for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(vector[axis]));

@@ -45,9 +45,15 @@ CellOrder sorted_by_cell(const std::vector<Vector3d>& centres, const Discretisat
 template <class Real>
 class Fields {
  public:
-  Fields(int count, int stride, const Discretisation& d)
-      : stride_(stride), d_(d), values_(static_cast<std::size_t>(count) * stride, Real(0)) {}
-  void set(int field, int s, double value) { values_[static_cast<std::size_t>(field) * stride_ + s] = static_cast<Real>(value); }
+  /// `together`: all fields of a wall; else a field of all walls.
+  Fields(int fields, int walls, bool together, const Discretisation& d)
+      : from_field_(together ? 1 : walls),
+        from_wall_(together ? fields : 1),
+        d_(d),
+        values_(static_cast<std::size_t>(fields) * walls, Real(0)) {}
+  void set(int field, int s, double value) {
+    values_[static_cast<std::size_t>(field) * from_field_ + static_cast<std::size_t>(s) * from_wall_] = static_cast<Real>(value);
+  }
   void set_place(int field, int s, const Vector3d& place) { set_vector(field, s, place - d_.origin); }
   void set_vector(int field, int s, const Vector3d& vector) {
     for (int axis = 0; axis < 3; ++axis) set(field + axis, s, vector[axis]);
@@ -55,7 +61,7 @@ class Fields {
   const std::vector<Real>& values() const { return values_; }
 
  private:
-  int stride_;
+  int from_field_, from_wall_;
   const Discretisation& d_;
   std::vector<Real> values_;
 };
@@ -121,14 +127,26 @@ bool comes_first(const Vector3d& a, const Vector3d& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// The edges that two facets of one plane and one owner have in common.
+/// Up to this size seven points on a facet give γ to 1.5e-5 and ∫ W dS to 1e-3 of that over a wall.
+constexpr double longest_small_edge = 1.25;  // h
+
+bool is_small(const Facet& facet, double smoothing_length) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, (facet.corners[(k + 1) % 3] - facet.corners[k]).norm());
+  return longest < longest_small_edge * smoothing_length;
+}
+
+/// The edges that two large facets of one plane and one owner have in common.
 class InnerEdges {
  public:
-  explicit InnerEdges(const std::vector<Facet>& facets) {
+  InnerEdges(const std::vector<Facet>& facets, double smoothing_length) {
     for (const Facet& facet : facets)
-      for (int k = 0; k < 3; ++k) ++uses_[key(facet, k)];
+      for (int k = 0; k < 3 && !is_small(facet, smoothing_length); ++k) ++uses_[key(facet, k)];
   }
-  bool contains(const Facet& facet, int k) const { return uses_.at(key(facet, k)) == 2; }
+  bool contains(const Facet& facet, int k) const {
+    const auto found = uses_.find(key(facet, k));
+    return found != uses_.end() && found->second == 2;
+  }
 
  private:
   using Key = std::array<double, 13>;
@@ -168,7 +186,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   std::vector<Vector3d> centres;
   for (const WallElement& element : elements) centres.push_back(element.centre);
   const CellOrder cells = sorted_by_cell(centres, d);
-  Fields<Real> values(field::rectangle_count, stride, d);
+  Fields<Real> values(field::rectangle_count, stride, false, d);
   for (int s = 0; s < count; ++s) {
     const WallElement& element = elements[cells.order[s]];
     values.set_place(field::wall_x, s, element.centre);
@@ -189,14 +207,16 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
 template <class Real>
 WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
                              const Discretisation& d)
-    : count(static_cast<int>(facets.size())), stride(std::max(count, 1)), list(device, 1) {
+    : count(static_cast<int>(facets.size())), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
-  const InnerEdges inner(whole ? facets : std::vector<Facet>());
+  const int field_count = whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count);
+  stride = whole ? field_count : std::max(count, 1);
+  const InnerEdges inner(whole && d.dimensions == 3 ? facets : std::vector<Facet>(), d.smoothing_length);
   std::vector<Vector3d> centres;
   for (const Facet& facet : facets) centres.push_back(middle_of(facet, d.dimensions));
   const CellOrder cells = whole ? facets_by_cell(facets, d) : sorted_by_cell(centres, d);
-  Fields<Real> values(whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count), stride, d);
+  Fields<Real> values(field_count, std::max(count, 1), whole, d);
   for (int s = 0; s < count; ++s) {
     const int source = whole ? s : cells.order[s];
     const Facet facet = turned_left(facets[source], d.dimensions);
@@ -204,11 +224,12 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     values.set(field::wall_owner, s, facet.owner);
     values.set(field::wall_thin, s, is_thin(thin, source) ? 1.0 : 0.0);
     values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
+    const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
     if (whole) {
+      values.set(field::area, s, d.dimensions == 3 && is_small(facet, d.smoothing_length) ? 0.5 * a.cross(b).norm() : 0.0);
       set_edges(facet, s, d.dimensions, inner, values);
       continue;
     }
-    const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
     values.set(field::area, s, d.dimensions == 3 ? 0.5 * a.cross(b).norm() : a.norm());
     for (int k = 0; k < 3; ++k) values.set_vector(field::corners + 3 * k, s, facet.corners[k] - centres[source]);
   }

@@ -62,7 +62,8 @@ int main() {
         std::get<wavetank::BoxTank>(scene.tank.shape).size.y() = 0.4;  // twice the support
         scene.fluid.fill = {wavetank::Box{Vector3d::Zero(), Vector3d(0.15, 0.4, 0.2)}};
       }
-      for (const auto elements : {wavetank::WallElements::semi_analytical, wavetank::WallElements::facet}) {
+      for (const auto elements :
+           {wavetank::WallElements::numerical, wavetank::WallElements::semi_analytical, wavetank::WallElements::facet}) {
         scene.numerics.walls.elements = elements;
         run(device, scene);
       }

@@ -20,11 +20,12 @@ struct Shot {
   Vector3d at;
 };
 
-Case weightless(const Vector3d& size, const Box& obstacle) {
+Case weightless(const Vector3d& size, const Box& obstacle, WallElements elements) {
   Case scene = box_case(size, size.z(), spacing);
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(4 * spacing, size.y() == 0 ? 0 : 4 * spacing, 4 * spacing)}};
   scene.gravity = Vector3d::Zero();
   scene.fluid.sound_speed = sound_speed;
+  scene.numerics.walls.elements = elements;
   std::get<BoxTank>(scene.tank.shape).closed = true;
   scene.bodies.push_back({"obstacle", obstacle, Motion::fixed});
   return scene;
@@ -84,7 +85,15 @@ Outcome shoot(const Case& scene, const std::vector<Shot>& shots, int steps) {
   return {hits, fastest};
 }
 
-TEST(Guard, LoneParticlesStayInFrontOfWallsIn2D) {
+class Guard : public ::testing::TestWithParam<WallElements> {};
+
+std::string name_of(const ::testing::TestParamInfo<WallElements>& info) {
+  return info.param == WallElements::facet ? "Facet" : "Numerical";
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, Guard, ::testing::Values(WallElements::numerical, WallElements::facet), name_of);
+
+TEST_P(Guard, LoneParticlesStayInFrontOfWallsIn2D) {
   const Vector3d size(2, 0, 2);
   const Box obstacle{Vector3d(0.8, 0, 0.8), Vector3d(1.2, 0, 1.2)};
   std::vector<Shot> shots;
@@ -99,10 +108,10 @@ TEST(Guard, LoneParticlesStayInFrontOfWallsIn2D) {
       shots.push_back({edge + from, edge});
     }
   // for so long that none meets another: the walls give no energy
-  EXPECT_LT(shoot(weightless(size, obstacle), shots, 90).greatest_speed, 1.02 * shot_speed);
+  EXPECT_LT(shoot(weightless(size, obstacle, GetParam()), shots, 90).greatest_speed, 1.02 * shot_speed);
 }
 
-TEST(Guard, LoneParticlesStayInFrontOfWallsIn3D) {
+TEST_P(Guard, LoneParticlesStayInFrontOfWallsIn3D) {
   const Vector3d size(1.2, 1.2, 1.2);
   const Box obstacle{Vector3d(0.45, 0.45, 0.45), Vector3d(0.75, 0.75, 0.75)};
   const Vector3d middle = 0.5 * size;
@@ -118,10 +127,10 @@ TEST(Guard, LoneParticlesStayInFrontOfWallsIn3D) {
       shots.push_back({middle + Vector3d(0.04, 0.31 * s, 0.35 * t), middle + Vector3d(0, 0.15 * s, 0.15 * t)});
       shots.push_back({middle + Vector3d(0.5 * s, 0.1 * t, 0.5 * t), middle + Vector3d(0.6 * s, 0, 0.6 * t)});  // the tank's edges
     }
-  shoot(weightless(size, obstacle), shots, 250);
+  shoot(weightless(size, obstacle, GetParam()), shots, 250);
 }
 
-TEST(Guard, ABlockOfFluidStaysInFrontOfWalls) {
+TEST_P(Guard, ABlockOfFluidStaysInFrontOfWalls) {
   const Vector3d size(1.2, 0, 1.2);
   const Box obstacle{Vector3d(0.6, 0, 0.0), Vector3d(0.8, 0, 0.4)};
   std::vector<Shot> shots;
@@ -131,10 +140,10 @@ TEST(Guard, ABlockOfFluidStaysInFrontOfWalls) {
       shots.push_back({at_corner, at_corner - Vector3d(1, 0, 1)});
       shots.push_back({at_edge, at_edge + Vector3d(1, 0, -1)});
     }
-  EXPECT_GT(shoot(weightless(size, obstacle), shots, 300).guard_hits, 0) << "the guard had nothing to do: the shots missed";
+  EXPECT_GT(shoot(weightless(size, obstacle, GetParam()), shots, 300).guard_hits, 0) << "the guard had nothing to do: the shots missed";
 }
 
-TEST(Guard, ParticlesStayInFrontOfTheFloorBesideABoxOffItsGrid) {
+TEST_P(Guard, ParticlesStayInFrontOfTheFloorBesideABoxOffItsGrid) {
   const Vector3d size(1, 1, 0.8);
   const Box box{Vector3d(0.312, 0.287, 0), Vector3d(0.668, 0.701, 0.2)};
   std::vector<Shot> shots;
@@ -153,7 +162,7 @@ TEST(Guard, ParticlesStayInFrontOfTheFloorBesideABoxOffItsGrid) {
       const Vector3d place(cx + (cx < 0.5 ? -0.006 : 0.006), cy + (cy < 0.5 ? -0.006 : 0.006), 0);
       shots.push_back({place + Vector3d(0, 0, 0.004), place});
     }
-  EXPECT_GT(shoot(weightless(size, box), shots, 40).guard_hits, 0);
+  EXPECT_GT(shoot(weightless(size, box, GetParam()), shots, 40).guard_hits, 0);
 }
 
 /// Lone particles thrown upwards and outwards from near the sides of an open tank; the number of steps until the watchdog speaks, or all.
@@ -244,7 +253,7 @@ TEST(SplashGuard, WithoutItSprayIsLostAndReported) {
   EXPECT_LT(throw_over_the_rim(false, 0, 240), 240);
 }
 
-TEST(Guard, RandomShotsStayInFrontOfWalls) {
+TEST_P(Guard, RandomShotsStayInFrontOfWalls) {
   const unsigned seed = 7;
   std::mt19937 random(seed);
   const Vector3d size(2, 0, 2);
@@ -257,7 +266,7 @@ TEST(Guard, RandomShotsStayInFrontOfWalls) {
     shots.push_back({from, Vector3d(across(random), 0, across(random))});
   }
   std::printf("seed %u: ", seed);
-  shoot(weightless(size, obstacle), shots, 500);
+  shoot(weightless(size, obstacle, GetParam()), shots, 500);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ std::vector<double> shepard(int dimensions, Precision precision, const std::vect
   scene.dimensions = dimensions;
   scene.fluid.sound_speed = 10;
   scene.numerics.support = 4;
+  scene.numerics.walls.elements = WallElements::numerical;
   scene.numerics.precision = precision;
   const double half = dimensions == 3 ? 1.0 : 0.0;
   const Box domain{Vector3d(-1, -half, -0.5), Vector3d(1, half, 2)};

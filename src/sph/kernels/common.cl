@@ -50,8 +50,8 @@ typedef struct {
 #define WALL_NORMAL_Z 5
 #define WALL_OWNER 6
 #define WALL_THIN 7           // 1: has water on both sides, nearer than the support, and shows itself on its own side only
-// ... and what elements have, but facets not: these have their edges from here on
 #define WALL_AREA 8
+// ... and each kind its own from here on
 
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
 INLINE real kernel_value(__constant const parameters_t* p, real distance) {

@@ -18,12 +18,12 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
   if (a->above_rim) {
     const real level = sqrt(c.normal.x * c.normal.x + c.normal.y * c.normal.y);
-    if (level < R(0.1) || a->walls->fields[WALL_OWNER * a->walls->stride + s] > R(0.5)) return;
+    if (level < R(0.1) || WALL_FIELD(a->walls, WALL_OWNER, s) > R(0.5)) return;
     c.normal = make_vector(c.normal.x / level, c.normal.y / level, R(0.0));
     c.distance /= level;
   }
 #if THIN_WALLS
-  const bool thin = a->walls->fields[WALL_THIN * a->walls->stride + s] > R(0.5);
+  const bool thin = WALL_FIELD(a->walls, WALL_THIN, s) > R(0.5);
   // a thin wall holds what was on its own side
   if (thin && touch_wall(p, a->walls, s, a->from.x, a->from.y, a->from.z).distance < R(0.0)) return;
   const real least = thin ? R(1.0e-3) * p->spacing : R(0.0);  // never in its very plane, from where both sides can be seen

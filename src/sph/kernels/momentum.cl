@@ -86,18 +86,26 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 #if NEEDS_FIT
-INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) {
-  a->fitted = fitted_plane(p, &a->fit);
+INLINE plane_t plane_of_fit(const sweep_t* a, __constant const parameters_t* p, vector_t more) {
+  plane_t plane = fitted_plane(p, &a->fit, more);
 #if CLAMP_PRESSURE
-  a->fitted.value = fmax(a->fitted.value, R(0.0));
+  plane.value = fmax(plane.value, R(0.0));
 #endif
+  return plane;
 }
 
-// What the fitted slope and hydrostatics add over a moment ∫ (y − x) W dS.
-INLINE real slope_along(const sweep_t* a, vector_t gravity, vector_t moment) {
-  const vector_t slope = make_vector(a->fitted.slope_x + a->density * gravity.x, a->fitted.slope_y + a->density * gravity.y,
-                                     a->fitted.slope_z + a->density * gravity.z);
-  return dot3(slope, moment);
+INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) { a->fitted = plane_of_fit(a, p, make_vector(R(0.0), R(0.0), R(0.0))); }
+
+// ∫ (p_i + p) W dS with the fitted plane for p. Where the wall accelerates, what is taken out before the fit and added after it is hydrostatics in its frame.
+INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
+#if MOVING_WALLS
+  const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (p->gravity_x - gravity.x), p->density * (p->gravity_y - gravity.y),
+                                                       p->density * (p->gravity_z - gravity.z)));
+#else
+  const plane_t plane = a->fitted;
+#endif
+  const vector_t slope = make_vector(plane.slope_x + a->density * gravity.x, plane.slope_y + a->density * gravity.y, plane.slope_z + a->density * gravity.z);
+  return (a->pressure + plane.value) * c->weight + dot3(slope, c->moment);
 }
 #endif
 
@@ -110,7 +118,7 @@ INLINE real slope_along(const sweep_t* a, vector_t gravity, vector_t moment) {
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if WALL_FORCES
-  const bool own = a->owner == (int)a->walls->fields[WALL_OWNER * a->walls->stride + s];
+  const bool own = a->owner == (int)WALL_FIELD(a->walls, WALL_OWNER, s);
   if (own) a->touched += c.weight;
   if (a->looking) return;
   a->weight += c.weight;
@@ -122,8 +130,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real foot_x = x + c.distance * c.normal.x, foot_y = y + c.distance * c.normal.y, foot_z = z + c.distance * c.normal.z;
 #if FACETS
-  const real push =
-      (a->pressure + a->fitted.value) * c.weight + slope_along(a, gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z), c.moment);
+  const real push = fitted_push(a, p, &c, gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z));
 #else
   const real push = (a->pressure + a->wall_loads[s]) * c.weight;
 #endif
@@ -200,14 +207,12 @@ INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global
 // Whether (x, y, z) may be within the support of a wall.
 INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
 #if FACETS && !IMAGES && !THIN_WALLS
-  __global const real* fields = walls->fields;
-  const int n = walls->stride;
   const int cell = cell_index(p, x, y, z);
   bool near = false;
   for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {
-    const int s = walls->list[k];
-    real distance = fields[WALL_NORMAL_X * n + s] * (fields[WALL_X * n + s] - x) + fields[WALL_NORMAL_Z * n + s] * (fields[WALL_Z * n + s] - z);
-    if (DIMENSIONS == 3) distance += fields[WALL_NORMAL_Y * n + s] * (fields[WALL_Y * n + s] - y);
+    __global const real* fields = walls->fields + walls->list[k] * walls->stride;
+    real distance = fields[WALL_NORMAL_X] * (fields[WALL_X] - x) + fields[WALL_NORMAL_Z] * (fields[WALL_Z] - z);
+    if (DIMENSIONS == 3) distance += fields[WALL_NORMAL_Y] * (fields[WALL_Y] - y);
     near = near || fabs(distance) < p->support;
   }
   return near;

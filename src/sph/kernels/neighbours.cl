@@ -31,6 +31,12 @@ typedef struct {
   __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
       __global const real *wall_motions, __global const int *barrier_start, __global const int *barrier_list, __global const real *barriers, \
       __global const int *brim_start, __global const int *brim_list, __global const real *brims
+// Elements are gone through one after the other, so that each field is an array; facets by a list, so that each facet's fields lie together.
+#if FACETS
+#define WALL_FIELD(walls, field, s) ((walls)->fields[(s) * (walls)->stride + (field)])
+#else
+#define WALL_FIELD(walls, field, s) ((walls)->fields[(field) * (walls)->stride + (s)])
+#endif
 #define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, brim_start, brim_list, brims}
 
 typedef struct {

@@ -120,9 +120,9 @@ INLINE void sweep_wall_cells(sweep_t* sums, __constant const parameters_t* p, co
 #endif
       const int end = walls->start[row + 2];
       for (int s = walls->start[row - 1]; s < end; ++s) {
-        const real rx = walls->fields[WALL_X * walls->stride + s] - x;
-        const real ry = DIMENSIONS == 3 ? walls->fields[WALL_Y * walls->stride + s] - y : R(0.0);
-        const real rz = walls->fields[WALL_Z * walls->stride + s] - z;
+        const real rx = WALL_FIELD(walls, WALL_X, s) - x;
+        const real ry = DIMENSIONS == 3 ? WALL_FIELD(walls, WALL_Y, s) - y : R(0.0);
+        const real rz = WALL_FIELD(walls, WALL_Z, s) - z;
         if (rx * rx + ry * ry + rz * rz < p->support_squared) add_wall(sums, p, s, x, y, z);
       }
     }

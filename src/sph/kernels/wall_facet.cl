@@ -2,12 +2,13 @@
 // the point's foot as the centre, ∫ n·(y−x) Φ dS = d Σ_edges ∫ [G(d) − G(ρ)] dϕ and ∫ W dS = Σ_edges ∫ [H(d) − H(ρ)] dϕ, where G' = −Φ ρ, H' = −W ρ, both
 // zero from 2h on, and ϕ turns with the edge about the foot. With t along the edge and p its distance from the foot, dϕ = p dt/(p² + t²) and
 // p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and eight Gauss points, taken as one vector, give them to 1e-6; the singular
-// part of Φ gives an angle. Lengths below are in units of h.
+// part of Φ gives an angle. Over a small facet the regular parts are smooth: seven points all over it are cheaper than its edges. Lengths below are in units of h.
+#define WALL_SMALL_AREA WALL_AREA  // of a small facet; 0 if it is large
 #if DIMENSIONS == 3
-#define WALL_EDGES 8          // three times: base x, y, z, direction x, y, z, length, sign (twice as large: the next facet is of the same plane)
+#define WALL_EDGES 9          // three times: base x, y, z, direction x, y, z, length, sign (twice as large: the next facet is large and of the same plane)
 #define EDGE_COUNT 8
 #else
-#define WALL_EDGES 8          // base x, y, z, direction x, y, z, length
+#define WALL_EDGES 9          // base x, y, z, direction x, y, z, length
 #endif
 
 // Distances below this are as good as zero: far below what a coordinate resolves, but enough to keep the angles defined.
@@ -80,6 +81,51 @@ INLINE edge_t edge_terms(real d, real p, real from, real to, bool inner) {
   e.shepard += (d * potential_integral(d) - QUARTER_PI_INVERSE) * outside - QUARTER_PI_INVERSE * cone;
   return e;
 }
+
+// Nearer to its plane than this, even a small facet is integrated by its edges: an angle is then known from both its facets to the last bit.
+#define LEAST_CUBATURE_HEIGHT R(0.02)
+
+// Radon's seven points of a triangle, exact to degree five, by the weights of its corners; the eighth place is not used.
+#define RADON_A R(0.470142064105)
+#define RADON_B R(0.101286507323)
+#define RADON_A_REST R(0.05971587179)
+#define RADON_B_REST R(0.797426985353)
+#define RADON_THIRD R(0.333333333333)
+#define RADON_FIRST (real8)(RADON_THIRD, RADON_A, RADON_A, RADON_A_REST, RADON_B, RADON_B, RADON_B_REST, RADON_THIRD)
+#define RADON_SECOND (real8)(RADON_THIRD, RADON_A, RADON_A_REST, RADON_A, RADON_B, RADON_B_REST, RADON_B, RADON_THIRD)
+#define RADON_THIRD_CORNER (real8)(RADON_THIRD, RADON_A_REST, RADON_A, RADON_A, RADON_B_REST, RADON_B, RADON_B, RADON_THIRD)
+#define RADON_WEIGHT (real8)(R(0.225), R(0.132394152789), R(0.132394152789), R(0.132394152789), R(0.125939180545), R(0.125939180545), R(0.125939180545), R(0.0))
+
+INLINE real8 radon_places(real first, real second, real third) {
+  return first * RADON_FIRST + second * RADON_SECOND + third * RADON_THIRD_CORNER;
+}
+
+typedef struct {
+  real shepard, weight;
+  vector_t moment;
+} small_t;
+
+// d: distance from the plane, positive; corners from the point. Beyond the support Φ is 0, and the regular part therefore what cancels the solid angle.
+INLINE small_t small_facet(real d, const vector_t corner[3], real area) {
+  const real8 x = radon_places(corner[0].x, corner[1].x, corner[2].x);
+  const real8 y = radon_places(corner[0].y, corner[1].y, corner[2].y);
+  const real8 z = radon_places(corner[0].z, corner[1].z, corner[2].z);
+  const real8 q2 = x * x + y * y + z * z;
+  const real8 q = sqrt(q2);
+  const real8 u = fmax(R(1.0) - R(0.5) * q, R(0.0));
+  const real8 weight = RADON_WEIGHT * area * R(0.417781725616) * u * u * u * u * (R(1.0) + R(2.0) * q);
+  const real8 within = R(0.0261113579) * (R(5.33333333333) + q2 * (R(-8.0) + q * (R(6.66666666667) + q * (R(-2.14285714286) + q * R(0.25)))));
+  const real8 beyond = QUARTER_PI_INVERSE / (q2 * q);
+  const real8 regular = RADON_WEIGHT * area * (q < R(2.0) ? within : beyond);
+  const real size0 = sqrt(dot3(corner[0], corner[0])), size1 = sqrt(dot3(corner[1], corner[1])), size2 = sqrt(dot3(corner[2], corner[2]));
+  const real triple = R(2.0) * area * d;
+  const real below = size0 * size1 * size2 + dot3(corner[0], corner[1]) * size2 + dot3(corner[1], corner[2]) * size0 + dot3(corner[2], corner[0]) * size1;
+  small_t f;
+  f.weight = sum8(weight);
+  f.shepard = d * sum8(regular) - R(2.0) * QUARTER_PI_INVERSE * whole_arctangent(triple, below);
+  f.moment = make_vector(sum8(weight * x), sum8(weight * y), sum8(weight * z));
+  return f;
+}
 #else
 __constant real gauss_place[5] = {R(-0.906179845939), R(-0.538469310106), R(0.0), R(0.538469310106), R(0.906179845939)};
 __constant real gauss_weight[5] = {R(0.236926885056), R(0.478628670499), R(0.568888888889), R(0.478628670499), R(0.236926885056)};
@@ -107,12 +153,11 @@ INLINE part_t part_of_segment(real d, real from, real to) {
 #endif
 
 INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
-  __global const real* fields = walls->fields;
-  const int n = walls->stride;
+  __global const real* fields = walls->fields + s * walls->stride;
   contact_t c;
-  c.normal = make_vector(fields[WALL_NORMAL_X * n + s], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y * n + s] : R(0.0), fields[WALL_NORMAL_Z * n + s]);
-  c.distance = c.normal.x * (fields[WALL_X * n + s] - x) + c.normal.z * (fields[WALL_Z * n + s] - z);
-  if (DIMENSIONS == 3) c.distance += c.normal.y * (fields[WALL_Y * n + s] - y);
+  c.normal = make_vector(fields[WALL_NORMAL_X], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y] : R(0.0), fields[WALL_NORMAL_Z]);
+  c.distance = c.normal.x * (fields[WALL_X] - x) + c.normal.z * (fields[WALL_Z] - z);
+  if (DIMENSIONS == 3) c.distance += c.normal.y * (fields[WALL_Y] - y);
   c.weight = R(0.0);
   c.shepard = R(0.0);
   c.moment = make_vector(R(0.0), R(0.0), R(0.0));
@@ -124,29 +169,41 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   real shepard = R(0.0), along_x = R(0.0), along_y = R(0.0), along_z = R(0.0);
 #if DIMENSIONS == 3
   real from[3], to[3], beside[3];
-  vector_t out[3];
+  vector_t out[3], corner[3];
   for (int k = 0; k < 3; ++k) {
     const int field = WALL_EDGES + EDGE_COUNT * k;
-    const real bx = (fields[field * n + s] - x) * p->inverse_smoothing;
-    const real by = (fields[(field + 1) * n + s] - y) * p->inverse_smoothing;
-    const real bz = (fields[(field + 2) * n + s] - z) * p->inverse_smoothing;
-    const vector_t way = make_vector(fields[(field + 3) * n + s], fields[(field + 4) * n + s], fields[(field + 5) * n + s]);
-    const real sign = fields[(field + 7) * n + s] > R(0.0) ? R(1.0) : R(-1.0);
+    const real bx = (fields[field] - x) * p->inverse_smoothing;
+    const real by = (fields[field + 1] - y) * p->inverse_smoothing;
+    const real bz = (fields[field + 2] - z) * p->inverse_smoothing;
+    const vector_t way = make_vector(fields[field + 3], fields[field + 4], fields[field + 5]);
+    const real sign = fields[field + 7] > R(0.0) ? R(1.0) : R(-1.0);
     // the base and the direction belong to the edge, not to the facet, so that the two facets that share it see exactly opposite distances
     const vector_t across = cross3(way, c.normal);
     out[k] = make_vector(sign * across.x, sign * across.y, sign * across.z);
     beside[k] = -(out[k].x * bx + out[k].y * by + out[k].z * bz);
     from[k] = way.x * bx + way.y * by + way.z * bz;
-    to[k] = from[k] + fields[(field + 6) * n + s] * p->inverse_smoothing;
+    const real length = fields[field + 6] * p->inverse_smoothing;
+    to[k] = from[k] + length;
+    const real start = sign > R(0.0) ? R(0.0) : length;
+    corner[k] = make_vector(bx + start * way.x, by + start * way.y, bz + start * way.z);
   }
   const real farthest = fmax(fmax(beside[0], beside[1]), beside[2]);
   c.beside = farthest * p->smoothing_length;
   c.over = farthest <= R(0.0);
   // a little beyond the support: an edge within it must be so for both its facets, whatever the rounding
   if (farthest * farthest >= R(4.001) - d * d && farthest > R(0.0)) return c;
+  const bool in_front = height >= R(0.0) || (c.over && c.distance > -BEHIND_TOLERANCE * p->spacing);
+  const real small_area = fields[WALL_SMALL_AREA] * p->inverse_smoothing * p->inverse_smoothing;
+  if (small_area > R(0.0) && d > LEAST_CUBATURE_HEIGHT) {
+    const small_t f = small_facet(d, corner, small_area);
+    c.shepard = in_front ? f.shepard : -f.shepard;
+    c.weight = f.weight * p->inverse_smoothing;
+    c.moment = f.moment;
+    return c;
+  }
   for (int k = 0; k < 3; ++k) {
     // as long as both facets of the plane show the same side, and are not hidden by themselves
-    const bool inner = !THIN_WALLS && height >= R(0.0) && fabs(fields[(WALL_EDGES + EDGE_COUNT * k + 7) * n + s]) > R(1.5);
+    const bool inner = !THIN_WALLS && height >= R(0.0) && fabs(fields[WALL_EDGES + EDGE_COUNT * k + 7]) > R(1.5);
     const edge_t e = edge_terms(d, -beside[k], from[k], to[k], inner);
     shepard += e.shepard;
     c.weight += e.weight;
@@ -155,16 +212,17 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
     along_z -= e.moment * out[k].z;
   }
 #else
-  const real bx = (fields[WALL_EDGES * n + s] - x) * p->inverse_smoothing, bz = (fields[(WALL_EDGES + 2) * n + s] - z) * p->inverse_smoothing;
-  const real wx = fields[(WALL_EDGES + 3) * n + s], wz = fields[(WALL_EDGES + 5) * n + s];
+  const real bx = (fields[WALL_EDGES] - x) * p->inverse_smoothing, bz = (fields[WALL_EDGES + 2] - z) * p->inverse_smoothing;
+  const real wx = fields[WALL_EDGES + 3], wz = fields[WALL_EDGES + 5];
   const real from = wx * bx + wz * bz;
-  const real to = from + fields[(WALL_EDGES + 6) * n + s] * p->inverse_smoothing;
+  const real to = from + fields[WALL_EDGES + 6] * p->inverse_smoothing;
   const real farthest = fmax(from, -to);
   c.beside = farthest * p->smoothing_length;
   c.over = farthest <= R(0.0);
   const real chord = sqrt(R(4.0) - d * d);
   const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
   if (b <= a) return c;
+  const bool in_front = height >= R(0.0) || (c.over && c.distance > -BEHIND_TOLERANCE * p->spacing);
   const real middle = fmin(fmax(R(0.0), a), b);  // W and Φ have odd powers of the distance: no Gauss points across the foot
   const part_t left = part_of_segment(d, a, middle), right = part_of_segment(d, middle, b);
   c.weight = left.weight + right.weight;
@@ -173,7 +231,6 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   along_x = moment * wx;
   along_z = moment * wz;
 #endif
-  const bool in_front = height >= R(0.0) || (c.over && c.distance > -BEHIND_TOLERANCE * p->spacing);
   c.shepard = in_front ? shepard : -shepard;
   const real depth = height * c.weight;
   c.moment = make_vector(along_x + depth * c.normal.x, along_y + depth * c.normal.y, along_z + depth * c.normal.z);

@@ -176,7 +176,7 @@ INLINE real side_of(__constant const parameters_t* p, real distance, bool over) 
 INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   contact_t c = touch_wall(p, walls, s, x, y, z);
 #if THIN_WALLS
-  bool unseen = c.distance < R(0.0) && walls->fields[WALL_THIN * walls->stride + s] > R(0.5);
+  bool unseen = c.distance < R(0.0) && WALL_FIELD(walls, WALL_THIN, s) > R(0.5);
   if (!unseen && c.weight > R(0.0)) {
     // to the middle of what is within the support, or nearly: the wall itself may be thin
     const real inverse = R(0.99) / c.weight;
@@ -224,7 +224,7 @@ INLINE vector_t motion_vector(__global const real* motion, int which) { return m
 // The wall's velocity at the point (x, y, z) of it.
 INLINE vector_t wall_velocity(const walls_t* walls, int s, vector_t normal, real x, real y, real z) {
 #if MOVING_WALLS
-  __global const real* motion = walls->motions + MOTION_COUNT * (int)walls->fields[WALL_OWNER * walls->stride + s];
+  __global const real* motion = walls->motions + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s);
   const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
   const vector_t turn = cross3(motion_vector(motion, 2), arm);
   const vector_t belt = motion_vector(motion, 5);
@@ -240,7 +240,7 @@ INLINE vector_t wall_velocity(const walls_t* walls, int s, vector_t normal, real
 INLINE vector_t gravity_at_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   vector_t g = make_vector(p->gravity_x, p->gravity_y, p->gravity_z);
 #if MOVING_WALLS
-  __global const real* motion = walls->motions + MOTION_COUNT * (int)walls->fields[WALL_OWNER * walls->stride + s];
+  __global const real* motion = walls->motions + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s);
   const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
   const vector_t spin = motion_vector(motion, 2);
   const vector_t turn = cross3(motion_vector(motion, 4), arm);
