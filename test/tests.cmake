@@ -27,7 +27,7 @@ endif()
 add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/watched_by_oclgrind.sh
   ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
 
-# Longer runs, which scripts/validate starts.
+# Longer runs, which scripts/validate starts, and what draws the picture of docs/walls.md.
 foreach(program tank_at_rest step_cost packed_particles)
   add_executable(${program} EXCLUDE_FROM_ALL test/validation/${program}.cpp)
   target_link_libraries(${program} wavetank_simulation)

@@ -64,6 +64,13 @@ std::string flow_of(Case scene, const Layout& layout) {
   return write_case(scene) + "geometry " + std::to_string(fingerprint(layout)) + "\n";
 }
 
+/// Elements or facets, whichever the case has; ghosts have facets for the guard.
+std::size_t walls_in_use(const Case& scene, const Layout& layout) {
+  const WallCase& walls = scene.numerics.walls;
+  if (walls.method == WallMethod::ghost || walls.elements == WallElements::facet) return layout.facets.size();
+  return walls.elements == WallElements::semi_analytical ? layout.triangles.size() : layout.walls.size();
+}
+
 void tell_of_thin_walls(const Case& scene, const Discretisation& discretisation, const Solver& solver) {
   const std::optional<ThinWall> wall = solver.thinnest_wall();
   if (!wall) return;
@@ -149,7 +156,12 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
   parts.packing = parts.solver->pack(iterations, [&](double fraction) { parts.progress("packing", fraction); });
   parts.report =
       parts.solver->settle(parts.scene.numerics.packing.settling, [&](double fraction) { parts.progress("settling", fraction); });
-  parts.check(parts.report);
+  try {
+    parts.check(parts.report);
+  } catch (const Violation& violation) {
+    throw Violation(std::string("before the start (numerics/packing/settling is ") + number(parts.scene.numerics.packing.settling) +
+                    "): " + violation.what());
+  }
   parts.initial_fluid = parts.solver->save();
   parts.initial_time_step = parts.report.time_step;
   parts.time_step = parts.initial_time_step;
@@ -286,7 +298,7 @@ std::string Simulation::summary() const {
   line("device", device_description());
   line("particles", std::to_string(count) + ", spacing " + number(d.spacing) + " m, smoothing length " + number(d.smoothing_length) +
                         " m, support " + number(d.support / d.spacing) + " spacings");
-  line("wall elements", std::to_string(parts.layout.walls.size()));
+  line("wall elements", std::to_string(walls_in_use(parts.scene, parts.layout)));
   line("sound speed",
        number(d.sound_speed) + " m/s, expected Mach number " + number(expected_speed(parts.scene, parts.layout) / d.sound_speed, "%.3f"));
   line("bounds on the time step", "acoustic " + number(d.acoustic_time) + " s at rest, viscous " + number(d.viscous_time) + " s");
@@ -321,11 +333,12 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
 
   Estimate result;
   result.particles = layout.particles.size();
-  result.wall_elements = layout.walls.size();
+  result.wall_elements = walls_in_use(scene, layout);
   result.lid_elements = layout.lid.size();
   result.device_memory = static_cast<double>(solver->device_memory());
   result.time_step = std::min(discretisation.acoustic_time, discretisation.viscous_time);
-  result.wall_seconds = scene.duration / result.time_step * step_seconds + 0.5 * scene.numerics.packing.iterations * step_seconds;
+  const double steps = (scene.duration + scene.numerics.packing.settling * discretisation.sound_period) / result.time_step;
+  result.wall_seconds = (steps + 0.5 * scene.numerics.packing.iterations) * step_seconds;
   return result;
 }
 

@@ -42,6 +42,9 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   d.upper = layout.domain.max + margin;
   const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
   const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper.z() - d.lower.z()));
+  double depth = 0;
+  for (std::size_t i = 0; i < layout.particles.size(); ++i) depth = std::max(depth, layout.levels[i] - layout.particles[i].z());
+  if (settled_case.gravity.z() != 0) d.sound_period = 4.0 * depth / d.sound_speed;
   d.rim = layout.domain.max.z();
   d.splash_guard = settled_case.tank.splash_guard && layout.open_top;
   d.origin = d.lower;

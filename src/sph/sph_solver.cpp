@@ -247,7 +247,6 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
     state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
   levels_ = layout.levels;
-  for (int i = 0; i < count_; ++i) depth_ = std::max(depth_, levels_[i] - layout.particles[i].z());
   state_.upload(state);
   id_.upload(id);
   derive_.launch(count_, parameters_, count_, state_, stride_);
@@ -378,13 +377,12 @@ StepReport SphSolver<Real>::start_at_rest() {
 template <class Real>
 StepReport SphSolver<Real>::settle(double periods, const std::function<void(double)>& progress) {
   StepReport report = start();
-  const double sound_speed = discretisation_.sound_speed;
-  const double duration = case_.gravity.z() == 0 ? 0.0 : periods * 4.0 * depth_ / sound_speed;
+  const double duration = periods * discretisation_.sound_period;
   if (duration == 0) return report;
   WallArrays<Real> supported = make_supported_walls();
 
   KernelParameters<Real> damped = values_;
-  damped.damping = static_cast<Real>(std::acos(-1.0) * sound_speed / depth_);
+  damped.damping = static_cast<Real>(4.0 * std::acos(-1.0) / discretisation_.sound_period);
   damped.gravity_x = damped.gravity_y = damped.hydrostatic_x = damped.hydrostatic_y = Real(0);
   const std::vector<Real> moving = motions_.download();
   std::vector<Real> still = moving;
@@ -395,17 +393,26 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
   std::swap(walls_, supported);
   Buffer loads(device_, elements_ ? walls_.stride : 1);
   std::swap(loads_, loads);
-  report = start_at_rest();
-  for (double time = 0; time < duration && report.sound();) {
-    time += report.time_step;
-    report = advance();
-    if (progress) progress(std::min(time / duration, 1.0));
+  const auto end_settling = [&] {
+    std::swap(loads_, loads);
+    std::swap(walls_, supported);
+    motions_.upload(moving);
+    upload_parameters(values_);
+  };
+  const auto may_go_on = [&] { return report.valid() && report.time_step >= discretisation_.least_time_step; };
+  try {
+    report = start_at_rest();
+    for (double time = 0; time < duration && may_go_on();) {
+      time += report.time_step;
+      report = advance();
+      if (progress) progress(std::min(time / duration, 1.0));
+    }
+  } catch (...) {
+    end_settling();
+    throw;
   }
-  std::swap(loads_, loads);
-  std::swap(walls_, supported);
-  motions_.upload(moving);
-  upload_parameters(values_);
-  return report.sound() ? start_at_rest() : report;
+  end_settling();
+  return may_go_on() ? start_at_rest() : report;
 }
 
 template <class Real>

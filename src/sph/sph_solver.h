@@ -47,7 +47,8 @@ class SphSolver final : public Solver {
   /// With or without the case's own walls.
   WallArrays<Real> make_walls(bool own, const std::vector<WallElement>& lid) const;
   void upload_parameters(const KernelParameters<Real>& values);
-  /// Queues a kernel that goes over the neighbours of `count` particles, points or walls; `others` are its own arguments.
+  /// Queues a kernel that goes over the neighbours of `count` particles, points or walls; `others` are its own arguments. The guard writes
+  /// the state.
   template <class... Others>
   void sweep(const compute::Kernel& kernel, int count, const Buffer& state, const WallArrays<Real>& walls, const Others&... others);
   void set_hydrostatic();
@@ -76,7 +77,6 @@ class SphSolver final : public Solver {
   bool ghosts_ = false;
   bool elements_ = false;       ///< the walls are elements, with a pressure of their own
   std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
-  double depth_ = 0;            ///< greatest, of a particle below its level
   Buffer state_, spare_, half_, rates_, gradient_;
   compute::Buffer<std::uint32_t> id_, spare_id_;
   ParticleGrid grid_;

@@ -140,12 +140,19 @@ bool is_small(const Facet& facet, double smoothing_length) {
 class InnerEdges {
  public:
   InnerEdges(const std::vector<Facet>& facets, double smoothing_length) {
-    for (const Facet& facet : facets)
-      for (int k = 0; k < 3 && !is_small(facet, smoothing_length); ++k) ++uses_[key(facet, k)];
+    for (const Facet& given : facets) {
+      if (is_small(given, smoothing_length)) continue;
+      const Facet facet = turned_left(given, 3);
+      for (int k = 0; k < 3; ++k) {
+        Uses& uses = uses_[key(facet, k)];
+        ++uses.count;
+        uses.turn += comes_first(facet.corners[k], facet.corners[(k + 1) % 3]) ? 1 : -1;
+      }
+    }
   }
   bool contains(const Facet& facet, int k) const {
     const auto found = uses_.find(key(facet, k));
-    return found != uses_.end() && found->second == 2;
+    return found != uses_.end() && found->second.count == 2 && found->second.turn == 0;
   }
 
  private:
@@ -160,7 +167,11 @@ class InnerEdges {
     *next = facet.owner;
     return key;
   }
-  std::map<Key, int> uses_;
+  struct Uses {
+    int count = 0;
+    int turn = 0;  ///< 0 when one facet lies on either side
+  };
+  std::map<Key, Uses> uses_;
 };
 
 /// Base, direction, length and sign of each edge: the first three are the edge's own, whichever of its two facets asks.

@@ -1,7 +1,9 @@
 // Runs every kernel of the solver on a few hundred particles in 2-D and 3-D, to be watched by oclgrind. Prints what it ran.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <set>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -31,11 +33,13 @@ void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
   const auto solver = wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), centres);
   solver->pack(2, {});
   solver->start();
-  for (int step = 0; step < 2; ++step) solver->advance();
+  for (int step = 0; step < 2; ++step)
+    if (!solver->advance().valid()) throw std::runtime_error("a particle is in violation");
   const auto points = solver->make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.5, 0.2, 0.4), Vector3d(0.45, 0.1, 0.35)});
   const double pressure = solver->evaluate(*points)[1].pressure;
   const double force = solver->wrenches()[0][0].z();
   const double energy = solver->energies().potential;
+  if (!std::isfinite(pressure) || !std::isfinite(force)) throw std::runtime_error("a pressure or a force is not finite");
   const std::vector<char> saved = solver->save();
   solver->restore(saved);
   const std::size_t surface = solver->download().surface.size();

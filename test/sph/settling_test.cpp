@@ -39,7 +39,7 @@ TEST_P(Settling, QuietensATankAtRest) {
   quiet.solver->pack(packing_iterations, {});
   double last_fraction = 0;
   const StepReport report = quiet.solver->settle(periods, [&](double fraction) { last_fraction = fraction; });
-  EXPECT_TRUE(report.sound());
+  EXPECT_TRUE(report.valid());
   EXPECT_EQ(last_fraction, 1.0);
   EXPECT_EQ(quiet.solver->energies().kinetic, 0.0);
   const double period = 4 * 0.2 / loud.discretisation.sound_speed;
@@ -54,7 +54,7 @@ TEST_P(Settling, HoldsAColumn) {
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.2, 0, 0.2)}};
   Tank tank(scene);
   tank.solver->pack(packing_iterations, {});
-  EXPECT_TRUE(tank.solver->settle(periods, {}).sound());
+  EXPECT_TRUE(tank.solver->settle(periods, {}).valid());
   const FluidState held = tank.solver->download();
   double right = 0, top = 0;
   for (std::size_t i = 0; i < held.id.size(); ++i) {
@@ -85,7 +85,7 @@ TEST(SettlingWithGhosts, NeedsWallsAllRound) {
   Case scene = box_case(Vector3d(0.4, 0, 0.3), 0.2, 0.02);
   scene.numerics.walls.method = WallMethod::ghost;
   Tank whole(scene);
-  EXPECT_TRUE(whole.solver->settle(periods, {}).sound());
+  EXPECT_TRUE(whole.solver->settle(periods, {}).valid());
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.2, 0, 0.2)}};
   Tank column(scene);
   EXPECT_NE(error_of([&] { column.solver->settle(periods, {}); }).find("numerics/packing/settling needs the tank's walls on all sides"),
@@ -97,9 +97,7 @@ TEST(SettlingWithoutGravity, DoesNothing) {
   scene.gravity = Vector3d::Zero();
   scene.fluid.sound_speed = 10;
   Tank tank(scene);
-  const FluidState before = tank.solver->download();
-  tank.solver->settle(periods, {});
-  EXPECT_EQ(tank.solver->download().position, before.position);
+  tank.solver->settle(periods, [](double) { ADD_FAILURE() << "a step was made"; });
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace wavetank {
 namespace {
 
-constexpr int option_count = 6;
-constexpr int value_count[option_count] = {3, 2, 2, 2, 2, 2};
+constexpr int option_count = 7;
+constexpr int value_count[option_count] = {3, 2, 2, 2, 2, 2, 3};
 
-/// One value an option: density diffusion, equation of state, viscosity model, slip, negative pressure, precision.
+/// One value an option: density diffusion, equation of state, viscosity model, slip, negative pressure, precision, wall elements.
 using Choice = std::array<int, option_count>;
 
 Case with(Case scene, const Choice& choice) {
@@ -23,13 +23,14 @@ Case with(Case scene, const Choice& choice) {
   numerics.walls.slip = static_cast<Slip>(choice[3]);
   numerics.negative_pressure = static_cast<NegativePressure>(choice[4]);
   numerics.precision = static_cast<Precision>(choice[5]);
+  numerics.walls.elements = static_cast<WallElements>(choice[6]);
   return scene;
 }
 
 std::string describe(const Choice& choice) {
   std::ostringstream text;
   text << "diffusion " << choice[0] << ", state " << choice[1] << ", viscosity " << choice[2] << ", slip " << choice[3]
-       << ", negative pressure " << choice[4] << ", precision " << choice[5];
+       << ", negative pressure " << choice[4] << ", precision " << choice[5] << ", elements " << choice[6];
   return text.str();
 }
 

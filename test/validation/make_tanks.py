@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes meshes of CAD tanks with few and with many triangles, cases of still water and dam breaks in them, and cases of Archimedes' force:
-make_tanks.py DIRECTORY. archimedes.csv there has the volumes of the bodies' meshes."""
+make_tanks.py DIRECTORY."""
 import itertools
 import math
 import os
@@ -196,19 +196,16 @@ def write_archimedes(directory):
         "sphere": (icosphere((0, 0, 0), half, 4), np.full(3, BODY_SIZE), (0, 0, 0)),
         "tilted_box": (box((-half,) * 3, (half,) * 3), tilted_extent, BODY_ROTATION),
     }
-    with open(os.path.join(directory, "archimedes.csv"), "w") as table:
-        table.write("case,volume\n")
-        for shape, (triangles, extent, rotation) in bodies.items():
-            name = "archimedes_" + shape
-            check_mesh(name, triangles)
-            write_stl(os.path.join(directory, name + ".stl"), triangles)
-            size = SPACING * np.ceil((extent + 2 * MARGIN) / SPACING - 1e-6)
-            body = {"name": "body", "mesh": name + ".stl", "rotation": list(rotation), "translation": position(size / 2), "motion": "fixed"}
-            tank = {"box": {"size": position(size + (0, 0, MARGIN))}}
-            probes = {"floor": (size[0] / 2, size[1] / 2, 0)}
-            write_case(directory, name, f"Submerged {shape.replace('_', ' ')}", 2, 200, [fill_box((0, 0, 0), size)], tank, probes, [body])
-            table.write(f"{name},{volume(triangles):.9g}\n")
-            print(f"{name}: {len(triangles)} triangles, {volume(triangles):.9g} m³")
+    for shape, (triangles, extent, rotation) in bodies.items():
+        name = "archimedes_" + shape
+        check_mesh(name, triangles)
+        write_stl(os.path.join(directory, name + ".stl"), triangles)
+        size = SPACING * np.ceil((extent + 2 * MARGIN) / SPACING - 1e-6)
+        body = {"name": "body", "mesh": name + ".stl", "rotation": list(rotation), "translation": position(size / 2), "motion": "fixed"}
+        tank = {"box": {"size": position(size + (0, 0, MARGIN))}}
+        probes = {"floor": (size[0] / 2, size[1] / 2, 0)}
+        write_case(directory, name, f"Submerged {shape.replace('_', ' ')}", 2, 200, [fill_box((0, 0, 0), size)], tank, probes, [body])
+        print(f"{name}: {len(triangles)} triangles, {volume(triangles):.9g} m³")
 
 
 if __name__ == "__main__":

@@ -13,8 +13,9 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    const auto simulation =
-        wavetank::validation::make_simulation(arguments[1], wavetank::validation::overrides_of(count - 3, arguments + 3));
+    auto overrides = wavetank::validation::overrides_of(count - 3, arguments + 3);
+    overrides.push_back({"numerics/packing/settling", "0"});
+    const auto simulation = wavetank::validation::make_simulation(arguments[1], overrides);
     std::printf("%s", simulation->summary().c_str());
     const wavetank::ParticleCloud cloud = simulation->particles();
     std::FILE* file = std::fopen(arguments[2], "w");

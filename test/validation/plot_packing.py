@@ -34,6 +34,12 @@ def cut(triangles, axis, place):
     return segments
 
 
+def row_near(particles, axis, place):
+    """Where particles away from walls lie, nearest to the place: a slice between two rows would show neither."""
+    inside = particles[particles[:, 3] > 0.99, axis]
+    return inside[np.argmin(np.abs(inside - place))]
+
+
 def draw(axes, particles, triangles, axis, place, spacing):
     others = [k for k in range(3) if k != axis]
     near = particles[np.abs(particles[:, axis] - place) < 0.5 * spacing]
@@ -54,12 +60,11 @@ def main(arguments):
     for column in range(columns):
         particles = np.loadtxt(files[2 * column], delimiter=",", skiprows=1)
         triangles = read_stl(files[2 * column + 1])
-        middle = 0.5 * (particles[:, 1].min() + particles[:, 1].max()) + 1e-4 * spacing
-        draw(axes[0][column], particles, triangles, 1, min(middle, particles[:, 1].min() + 0.3), spacing)
-        points = draw(axes[1][column], particles, triangles, 2, particles[:, 2].min() + 0.5 * (particles[:, 2].max() - particles[:, 2].min()), spacing)
-    picture.tight_layout()
-    picture.colorbar(points, ax=axes, label=r"$\gamma$", shrink=0.6)
-    picture.savefig(out, dpi=100)
+        draw(axes[0][column], particles, triangles, 1, row_near(particles, 1, particles[:, 1].min() + 0.3), spacing)
+        points = draw(axes[1][column], particles, triangles, 2, row_near(particles, 2, 0.5 * (particles[:, 2].min() + particles[:, 2].max())), spacing)
+    picture.tight_layout(rect=(0.0, 0.0, 0.92, 1.0))
+    picture.colorbar(points, cax=picture.add_axes([0.94, 0.2, 0.012, 0.6]), label=r"$\gamma$")
+    picture.savefig(out, dpi=80)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ int main(int count, char** arguments) {
   try {
     auto overrides = wavetank::validation::overrides_of(count - 3, arguments + 3);
     overrides.push_back({"numerics/packing/iterations", "0"});
+    overrides.push_back({"numerics/packing/settling", "0"});
     const auto simulation = wavetank::validation::make_simulation(arguments[1], overrides);
     simulation->advance();  // the first launch of a kernel may still compile it
     std::vector<double> milliseconds;

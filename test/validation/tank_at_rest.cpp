@@ -49,7 +49,7 @@ struct Mean {
     sum += value;
     weight += 1;
   }
-  double value() const { return sum / weight; }
+  double value() const { return weight > 0 ? sum / weight : 0.0; }
 };
 
 void run(const std::string& case_file, const std::string& out, double end, const std::vector<wavetank::Override>& overrides) {
@@ -90,6 +90,7 @@ void run(const std::string& case_file, const std::string& out, double end, const
     if (time > 0.5 * duration) error.add(now);
   }
   std::fclose(file);
+  if (error.weight == 0) outcome += "; there is no second half";
   std::printf("t sqrt(g/H) = %.2f (%.2f s): %s\n", simulation->state().time / unit, simulation->state().time, outcome.c_str());
   std::printf("L2 error of the pressure over rho g H: %.4f at the most, %.4f in the mean of the second half\n", greatest_error,
               error.value());

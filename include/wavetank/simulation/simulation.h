@@ -94,7 +94,7 @@ class Simulation {
 /// What `--check` reports: from the layout and a few steps that are timed.
 struct Estimate {
   std::size_t particles = 0;
-  std::size_t wall_elements = 0;
+  std::size_t wall_elements = 0;  ///< or facets
   std::size_t lid_elements = 0;
   double device_memory = 0;  ///< bytes
   double time_step = 0;      ///< s, the acoustic bound at rest

@@ -33,7 +33,7 @@ struct StepReport {
   Eigen::Vector3d offender_position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
   Eigen::Vector3d offender_velocity = Eigen::Vector3d::Zero();  ///< m/s
 
-  bool sound() const { return offender < 0; }  ///< no particle is in violation
+  bool valid() const { return offender < 0; }  ///< no particle is in violation
 };
 
 struct PackingReport {

@@ -1,4 +1,5 @@
-// Types, the fields of the arrays, and the smoothing kernel. Every field array holds its fields one after the other, `stride` values each.
+// Types, the fields of the arrays, and the smoothing kernel. Every field array holds its fields one after the other, `stride` values each; facets alone have
+// theirs together.
 #if USE_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double real;

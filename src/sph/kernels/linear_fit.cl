@@ -37,17 +37,17 @@ typedef struct {
   real value, slope_x, slope_y, slope_z;
 } plane_t;
 
-// The weights' sum must not be zero. `more` is added to every pressure's slope before the fit: what the sums took out with another gravity.
-INLINE plane_t fitted_plane(__constant const parameters_t* p, const linear_fit_t* f, vector_t more) {
+// The weights' sum must not be zero. `added_slope` is added to every pressure's slope before the fit: what the sums took out with another gravity.
+INLINE plane_t fitted_plane(__constant const parameters_t* p, const linear_fit_t* f, vector_t added_slope) {
   const real scale = R(1.0) / f->weight;
   const real mx = f->x * scale, mz = f->z * scale;
   const real ridge = FIT_RIDGE * p->smoothing_length * p->smoothing_length;
   const real spread_xx = f->xx * scale - mx * mx, xz = f->xz * scale - mx * mz, spread_zz = f->zz * scale - mz * mz;
   const real xx = spread_xx + ridge, zz = spread_zz + ridge;
   const real own_mean = f->pressure * scale;
-  real mean = own_mean + more.x * mx + more.z * mz;
-  real bx = f->px * scale - own_mean * mx + spread_xx * more.x + xz * more.z;
-  real bz = f->pz * scale - own_mean * mz + xz * more.x + spread_zz * more.z;
+  real mean = own_mean + added_slope.x * mx + added_slope.z * mz;
+  real bx = f->px * scale - own_mean * mx + spread_xx * added_slope.x + xz * added_slope.z;
+  real bz = f->pz * scale - own_mean * mz + xz * added_slope.x + spread_zz * added_slope.z;
   plane_t plane;
 #if DIMENSIONS == 3
   const real my = f->y * scale;
@@ -55,10 +55,10 @@ INLINE plane_t fitted_plane(__constant const parameters_t* p, const linear_fit_t
   const real spread_yy = f->yy * scale - my * my;
   const real yy = spread_yy + ridge;
   const real yz = f->yz * scale - my * mz;
-  mean += more.y * my;
-  bx += xy * more.y;
-  bz += yz * more.y;
-  const real by = f->py * scale - own_mean * my + xy * more.x + spread_yy * more.y + yz * more.z;
+  mean += added_slope.y * my;
+  bx += xy * added_slope.y;
+  bz += yz * added_slope.y;
+  const real by = f->py * scale - own_mean * my + xy * added_slope.x + spread_yy * added_slope.y + yz * added_slope.z;
   const real c_xx = yy * zz - yz * yz, c_xy = xz * yz - xy * zz, c_xz = xy * yz - xz * yy;
   const real c_yy = xx * zz - xz * xz, c_yz = xy * xz - xx * yz, c_zz = xx * yy - xy * xy;
   const real inverse = R(1.0) / (xx * c_xx + xy * c_xy + xz * c_xz);

@@ -86,8 +86,8 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 #if NEEDS_FIT
-INLINE plane_t plane_of_fit(const sweep_t* a, __constant const parameters_t* p, vector_t more) {
-  plane_t plane = fitted_plane(p, &a->fit, more);
+INLINE plane_t plane_of_fit(const sweep_t* a, __constant const parameters_t* p, vector_t added_slope) {
+  plane_t plane = fitted_plane(p, &a->fit, added_slope);
 #if CLAMP_PRESSURE
   plane.value = fmax(plane.value, R(0.0));
 #endif
@@ -99,6 +99,7 @@ INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) { a->fitted
 // ∫ (p_i + p) W dS with the fitted plane for p. Where the wall accelerates, what is taken out before the fit and added after it is hydrostatics in its frame.
 INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
 #if MOVING_WALLS
+  if (!a->fitting) return R(0.0);  // no wall is near, and there is no fit
   const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (p->gravity_x - gravity.x), p->density * (p->gravity_y - gravity.y),
                                                        p->density * (p->gravity_z - gravity.z)));
 #else
@@ -211,9 +212,7 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
   bool near = false;
   for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {
     __global const real* fields = walls->fields + walls->list[k] * walls->stride;
-    real distance = fields[WALL_NORMAL_X] * (fields[WALL_X] - x) + fields[WALL_NORMAL_Z] * (fields[WALL_Z] - z);
-    if (DIMENSIONS == 3) distance += fields[WALL_NORMAL_Y] * (fields[WALL_Y] - y);
-    near = near || fabs(distance) < p->support;
+    near = near || fabs(plane_distance(fields, x, y, z)) < p->support;
   }
   return near;
 #else
@@ -251,6 +250,9 @@ INLINE void write_vector(__global real* fields, int stride, int field, int i, ve
 
 INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vector(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z); }
 
+// Of ∫ W dS in 1/h, which is 3/4 on a flat wall: less is what rounding leaves of facets that end beyond the support.
+#define LEAST_TOUCH R(5.0e-6)
+
 // Per particle: pressure force, viscous force and their torques about the owner's centre.
 __kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
                           WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int owner, __global const real* centres,
@@ -273,7 +275,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
   a.looking = true;
   sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
   real share = R(0.0);
-  if (a.touched > R(0.0)) {
+  if (a.touched * p->smoothing_length > LEAST_TOUCH) {
     a.looking = false;
     a.touched = R(0.0);
     sweep_particles(&a, p, cell_start, images);

@@ -152,12 +152,17 @@ INLINE part_t part_of_segment(real d, real from, real to) {
 }
 #endif
 
+// Of (x, y, z) from the plane of the facet with these fields; positive on the fluid's side.
+INLINE real plane_distance(__global const real* fields, real x, real y, real z) {
+  const real distance = fields[WALL_NORMAL_X] * (fields[WALL_X] - x) + fields[WALL_NORMAL_Z] * (fields[WALL_Z] - z);
+  return DIMENSIONS == 3 ? distance + fields[WALL_NORMAL_Y] * (fields[WALL_Y] - y) : distance;
+}
+
 INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   __global const real* fields = walls->fields + s * walls->stride;
   contact_t c;
   c.normal = make_vector(fields[WALL_NORMAL_X], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y] : R(0.0), fields[WALL_NORMAL_Z]);
-  c.distance = c.normal.x * (fields[WALL_X] - x) + c.normal.z * (fields[WALL_Z] - z);
-  if (DIMENSIONS == 3) c.distance += c.normal.y * (fields[WALL_Y] - y);
+  c.distance = plane_distance(fields, x, y, z);
   c.weight = R(0.0);
   c.shepard = R(0.0);
   c.moment = make_vector(R(0.0), R(0.0), R(0.0));

@@ -35,7 +35,7 @@ INLINE turn_t turned_back(turn_t turn) {
 INLINE real rectangle_shepard(__constant const parameters_t* p, real distance, bool over, real along, real across, real half_along, real half_across,
                               real area, real r2) {
 #if SHEPARD_MONOLITHIC
-  return distance * area * monolithic_potential(p, r2);
+  return distance * area * whole_value(p, r2);
 #else
   const bool far = r2 > FAR_ELEMENT * (half_along * half_along + half_across * half_across);
   const real inverse2 = p->inverse_smoothing * p->inverse_smoothing;

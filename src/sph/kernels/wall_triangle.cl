@@ -61,7 +61,7 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   c.beside = beside;
   c.over = beside <= BORDER * p->spacing;
 #if SHEPARD_MONOLITHIC
-  c.shepard = c.distance * area * monolithic_potential(p, r2);
+  c.shepard = c.distance * area * whole_value(p, r2);
 #else
   const real height = c.over && c.distance > -BEHIND_TOLERANCE * p->spacing ? fabs(c.distance) : c.distance;
   c.shepard = height * area * f.scale * (f.value + second) - side_of(p, c.distance, c.over) * share;

@@ -5,6 +5,7 @@
 typedef struct {
   vector_t normal;   // out of the fluid
   real distance;     // of the point from the wall's plane, positive on the fluid's side
+  // Of facets, only their sums over a plane mean anything: what two of one plane have in common is left out of both.
   real weight;       // ∫ W dS
   vector_t moment;   // ∫ (y − x) W dS
   real shepard;      // ∫ n·(y − x) Φ dS
@@ -141,16 +142,10 @@ INLINE potential_t whole_potential(__constant const parameters_t* p, real r2) {
 }
 
 #if SHEPARD_MONOLITHIC
-// Φ itself at the element's centre, singular part and all ([C] eq 8 by the midpoint rule): for comparison.
-INLINE real monolithic_potential(__constant const parameters_t* p, real r2) {
-  const real q = fmax(sqrt(r2) * p->inverse_smoothing, R(1.0e-6));
-  const potential_t f = potential_polynomial(p, r2);
-#if DIMENSIONS == 3
-  const real inverse3 = p->inverse_smoothing * p->inverse_smoothing * p->inverse_smoothing;
-  return f.scale * f.value - R(0.0795774715459) * inverse3 / (q * q * q);
-#else
-  return f.scale * f.value - R(0.159154943092) * p->inverse_smoothing * p->inverse_smoothing / (q * q);
-#endif
+// Φ at an element's centre, singular part and all ([C] eq 8 by the midpoint rule): for comparison.
+INLINE real whole_value(__constant const parameters_t* p, real r2) {
+  const potential_t f = whole_potential(p, fmax(r2, R(1.0e-12) * p->smoothing_length * p->smoothing_length));
+  return f.scale * f.value;
 }
 #endif
 
