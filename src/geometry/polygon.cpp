@@ -9,9 +9,12 @@
 namespace wavetank {
 namespace {
 
-/// Whether `point` lies in the triangle, seen along `normal`; its edges count as outside.
-bool covers(const Vector3d& normal, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& point) {
-  return normal.dot((b - a).cross(point - a)) > 0 && normal.dot((c - b).cross(point - b)) > 0 && normal.dot((a - c).cross(point - c)) > 0;
+/// Whether `point`, no corner of it, lies in the triangle, seen along `normal`, or outside by less than a margin (in units of the normal
+/// times an area).
+bool covers(const Vector3d& normal, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& point, double margin) {
+  if (point == a || point == b || point == c) return false;
+  return normal.dot((b - a).cross(point - a)) > -margin && normal.dot((c - b).cross(point - b)) > -margin &&
+         normal.dot((a - c).cross(point - c)) > -margin;
 }
 
 }  // namespace
@@ -62,15 +65,18 @@ std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners) {
   std::vector<int> left(corners.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = static_cast<int>(k);
   std::vector<Eigen::Vector3i> triangles;
-  const auto is_ear = [&](std::size_t k) {
+  const auto is_ear = [&](std::size_t k, double margin) {
     const std::size_t count = left.size();
     const Vector3d &a = corners[left[(k + count - 1) % count]], &b = corners[left[k]], &c = corners[left[(k + 1) % count]];
     if (normal.dot((b - a).cross(c - b)) <= 0) return false;
-    return std::none_of(left.begin(), left.end(), [&](int other) { return covers(normal, a, b, c, corners[other]); });
+    return std::none_of(left.begin(), left.end(), [&](int other) { return covers(normal, a, b, c, corners[other], margin); });
   };
   while (left.size() > 3) {
-    std::size_t ear = 0;
-    while (ear < left.size() && !is_ear(ear)) ++ear;
+    // a corner on the ear's open side would leave a polygon that touches itself there, and triangles that lie on each other
+    std::size_t ear = left.size();
+    for (const double margin : {1e-6 * normal.squaredNorm(), 0.0})
+      for (std::size_t k = 0; k < left.size() && ear == left.size(); ++k)
+        if (is_ear(k, margin)) ear = k;
     if (ear == left.size()) ear = 1;  // no ear in a degenerate polygon: what comes of it has no area
     const std::size_t count = left.size();
     triangles.emplace_back(left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]);

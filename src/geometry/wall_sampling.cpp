@@ -196,7 +196,9 @@ std::vector<FlatTriangle> in_few_triangles(const PlanarRegion& region) {
     FlatTriangle triangle;
     for (int k = 0; k < 3; ++k) triangle[k] = outline[t[k]].head<2>();
     const Eigen::Vector2d a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
-    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    const double part = 0.5 * (a.x() * b.y() - a.y() * b.x());
+    if (!(part > 0)) return region.triangles;  // the outline touches itself
+    area += part;
     result.push_back(triangle);
   }
   return std::abs(area - region.area) <= 1e-6 * region.area ? result : region.triangles;
