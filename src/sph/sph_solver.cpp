@@ -174,9 +174,8 @@ WallArrays<Real> SphSolver<Real>::make_supported_walls() const {
     if (element.normal.z() < 0.5) lid.push_back(element);
   if (ghosts_ && !lid.empty())
     throw Error(
-        "numerics/packing/settling needs the tank's walls on all sides of the water where numerics/walls/method is ghost; set it to 0, or "
-        "choose "
-        "boundary_integral.");
+        "numerics/packing/settling needs the tank's walls on all sides of the water where numerics/walls/method is ghost; "
+        "set it to 0, or choose boundary_integral.");
   return make_walls(true, lid);
 }
 
