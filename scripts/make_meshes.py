@@ -74,6 +74,54 @@ def l_tank(arm, width, height, thickness):
     return triangles
 
 
+def flume(profile, rim, width):
+    """A flume without its top: a floor that follows (x, z) points from one end to the other, level in y, with upright ends and sides to the rim."""
+    half = 0.5 * width
+    triangles = []
+    for (x0, z0), (x1, z1) in zip(profile, profile[1:]):
+        triangles += quad((x0, -half, z0), (x0, half, z0), (x1, half, z1), (x1, -half, z1))
+        triangles += quad((x0, -half, z0), (x1, -half, z1), (x1, -half, rim), (x0, -half, rim))
+        triangles += quad((x1, half, z1), (x0, half, z0), (x0, half, rim), (x1, half, rim))
+    (first, low), (last, high) = profile[0], profile[-1]
+    triangles += quad((first, half, low), (first, -half, low), (first, -half, rim), (first, half, rim))
+    triangles += quad((last, -half, high), (last, half, high), (last, half, rim), (last, -half, rim))
+    return triangles
+
+
+def hull(length, beam, depth, stations):
+    """A small boat's hull, closed by a flat deck: V-shaped sections under a chine, a transom at x = 0, a bow that comes to a point at deck height.
+
+    x forwards, y to port, z up from the keel. Forward of half its length the chine runs in and up, and the keel rises to the stem.
+    """
+    chine = 0.5 * depth
+
+    def section(x):
+        """Half the beam at the deck and at the chine, and the heights of chine and keel."""
+        forward = max(0.0, 2 * x / length - 1)  # 0 from the transom to the middle, 1 at the stem
+        deck = 0.5 * beam * np.sqrt(1 - forward**2)
+        return deck, 0.85 * deck, chine + (depth - chine) * forward**3, depth * forward**4
+
+    def ring(x):
+        """From the keel to port, over the deck, down on starboard."""
+        deck, side, chine_height, keel = section(x)
+        return [(x, 0.0, keel), (x, side, chine_height), (x, deck, depth), (x, -deck, depth), (x, -side, chine_height)]
+
+    # Denser towards the stem, where the waterlines turn in.
+    places = [0.0] + [length * (0.5 + 0.5 * np.sin(0.5 * np.pi * k / stations)) for k in range(stations)]
+    rings = [ring(x) for x in places]
+    stem = (length, 0.0, depth)
+    triangles = []
+    for aft, fore in zip(rings, rings[1:]):
+        for k in range(5):
+            n = (k + 1) % 5
+            triangles += quad(aft[k], aft[n], fore[n], fore[k])
+    for k in range(5):
+        triangles.append((rings[-1][k], rings[-1][(k + 1) % 5], stem))
+        if 0 < k < 4:
+            triangles.append((rings[0][0], rings[0][k + 1], rings[0][k]))
+    return triangles
+
+
 def write_stl(path, triangles):
     corners = np.array(triangles, dtype=np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -98,6 +146,11 @@ def main():
         "cylinder_tank.stl": cylinder_tank(radius=0.5, height=1.0, segments=96),
         "sphere.stl": sphere(centre=(0, 0, 0), radius=0.5, subdivisions=4),
         "l_tank.stl": l_tank(arm=1.2, width=0.5, height=0.6, thickness=0.02),
+        # Hadzic et al. 2005: flat to x = 4 m, then a beach of 1 : 10; 0.6 m behind the flap, whose hinge is at x = 0.
+        "wave_flume.stl": flume(profile=[(-0.6, 0), (4, 0), (10, 0.6)], rim=0.9, width=0.4),
+        # A piston flume with its face at x = 1 m and a beach of 1 : 6 from x = 4 m on.
+        "piston_flume.stl": flume(profile=[(0.6, 0), (4, 0), (7.3, 0.55)], rim=0.6, width=0.4),
+        "boat.stl": hull(length=0.7, beam=0.26, depth=0.14, stations=12),
     }
     for name, triangles in meshes.items():
         write_stl(os.path.join(directory, name), triangles)

@@ -85,9 +85,11 @@ std::vector<Part> read_parts(const Case& checked, const ResourceResolver& resolv
   return parts;
 }
 
-TriangleGrid make_grid(const std::vector<Part>& parts, int dimensions, double spacing) {
+/// Of the parts that are wanted; empty = all.
+TriangleGrid make_grid(const std::vector<Part>& parts, int dimensions, double spacing, const std::vector<bool>& wanted = {}) {
   std::vector<WallTriangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!wanted.empty() && !wanted[p]) continue;
     const int owner = static_cast<int>(p);
     if (dimensions == 2) {
       const std::vector<WallTriangle> wall = ribbons(parts[p].outline, 2 * spacing, owner);
@@ -178,26 +180,48 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
   }
 }
 
-void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+/// Samples one part's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
+void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
   const int dimensions = checked.dimensions;
-  const WallCase& kind = checked.numerics.walls;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::vector<WallPatch> patches =
-        dimensions == 2 ? sample_outline(parts[p].outline, layout.spacing) : sample_mesh(parts[p].mesh, layout.spacing);
-    std::vector<WallElement> walls = face_walls(patches, static_cast<int>(p), open, grid, layout.spacing);
-    if (dimensions == 2) {
-      for (WallElement& wall : walls) {
-        wall.area /= layout.spacing;                               // the ribbons' width
-        wall.centre.y() = wall.normal.y() = wall.tangent.y() = 0;  // free of rounding
-      }
+  const std::vector<WallPatch> patches =
+      dimensions == 2 ? sample_outline(part.outline, layout.spacing) : sample_mesh(part.mesh, layout.spacing);
+  std::vector<WallElement> walls = face_walls(patches, owner, open, grid, layout.spacing);
+  if (dimensions == 2) {
+    for (WallElement& wall : walls) {
+      wall.area /= layout.spacing;                               // the ribbons' width
+      wall.centre.y() = wall.normal.y() = wall.tangent.y() = 0;  // free of rounding
     }
-    layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
-    const auto add = [&](const std::vector<WallPatch>& from, std::vector<Facet>& to) {
-      const std::vector<Facet> facets = face_facets(from, static_cast<int>(p), open, grid, layout.spacing, dimensions);
-      to.insert(to.end(), facets.begin(), facets.end());
-    };
-    add(dimensions == 2 ? whole_facets(parts[p].outline, layout.spacing) : whole_facets(parts[p].mesh), layout.facets);
-    if (kind.elements == WallElements::semi_analytical) add(patches, layout.triangles);
+  }
+  layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
+  const auto add = [&](const std::vector<WallPatch>& from, std::vector<Facet>& to) {
+    const std::vector<Facet> facets = face_facets(from, owner, open, grid, layout.spacing, dimensions);
+    to.insert(to.end(), facets.begin(), facets.end());
+  };
+  add(dimensions == 2 ? whole_facets(part.outline, layout.spacing) : whole_facets(part.mesh), layout.facets);
+  if (checked.numerics.walls.elements == WallElements::semi_analytical) add(patches, layout.triangles);
+}
+
+/// All of its outside, as water all round it would wet it.
+void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const Case& checked, Layout& layout) {
+  std::vector<bool> alone(parts.size(), false);
+  alone[p] = true;
+  const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, alone);
+  Box room = checked.dimensions == 2 ? bounding_box(parts[p].outline) : parts[p].mesh.bounding_box();
+  Vector3d margin = Vector3d::Constant(3 * layout.spacing);
+  if (checked.dimensions == 2) margin.y() = 0;
+  room.min -= margin;
+  room.max += margin;
+  OpenSpace outside(room, checked.dimensions, layout.spacing, grid, Walls::all);
+  outside.flood({room.min + margin / 6, room.max - margin / 6});
+  add_walls_of(parts[p], static_cast<int>(p), outside, grid, checked, layout);
+}
+
+void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (layout.moving[p])
+      add_moving_walls(parts, p, checked, layout);
+    else
+      add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, layout);
   }
 }
 
@@ -236,10 +260,15 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
   add_particles(regions, layout);
   if (layout.particles.empty()) throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
 
-  OpenSpace open(layout.domain, checked.dimensions, layout.spacing, grid, Walls::all);
+  layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
+  for (std::size_t b = 0; b < checked.bodies.size(); ++b) layout.moving[b + 1] = checked.bodies[b].motion != Motion::fixed;
+  std::vector<bool> standing = layout.moving;
+  standing.flip();
+  const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);
+  OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all);
   open.flood(layout.particles);
   layout.open_top = open.open_top();
-  add_walls(parts, open, grid, checked, layout);
+  add_walls(parts, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);

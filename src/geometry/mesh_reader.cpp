@@ -5,7 +5,6 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <unordered_map>
 
@@ -13,51 +12,13 @@
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wavetank/common/error.h"
+#include "wavetank/geometry/file_path.h"
 #include "wavetank/geometry/mesh.h"
 
 namespace wavetank {
 namespace {
 
 constexpr double merge_tolerance = 1e-6;  // of the mesh's size: above the resolution of the float32 coordinates of mesh files
-
-std::string percent_decoded(const std::string& text) {
-  std::string plain;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    if (text[k] == '%' && k + 2 < text.size() && std::isxdigit(text[k + 1]) && std::isxdigit(text[k + 2])) {
-      plain += static_cast<char>(std::strtol(text.substr(k + 1, 2).c_str(), nullptr, 16));
-      k += 2;
-    } else {
-      plain += text[k];
-    }
-  }
-  return plain;
-}
-
-std::string path_of(const std::string& uri, const std::string& case_directory, const ResourceResolver& resolve) {
-  const std::string file_scheme = "file://";
-  if (uri.empty()) throw Error("a mesh has an empty path; give package://, file://, an absolute path or one relative to the case file");
-  if (uri.compare(0, file_scheme.size(), file_scheme) == 0) return percent_decoded(uri.substr(file_scheme.size()));
-  if (uri.find("://") != std::string::npos) {
-    if (!resolve) throw Error("mesh '" + uri + "' cannot be found: nothing here resolves such addresses; give a file path");
-    const std::string path = resolve(uri);
-    if (path.compare(0, file_scheme.size(), file_scheme) == 0) return percent_decoded(path.substr(file_scheme.size()));
-    return path;
-  }
-  const std::filesystem::path path(uri);
-  if (path.is_absolute()) return uri;
-  if (case_directory.empty()) {
-    throw Error("mesh '" + uri +
-                "' is a relative path, which needs a case file that it is relative to; give package://, file:// or an absolute path");
-  }
-  return (std::filesystem::path(case_directory) / path).string();
-}
-
-void check_file(const std::string& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure)) throw Error("mesh file '" + path + "' does not exist");
-  if (!std::filesystem::is_regular_file(path, failure)) throw Error("mesh file '" + path + "' is not a regular file");
-  if (std::filesystem::file_size(path, failure) == 0 && !failure) throw Error("mesh file '" + path + "' is empty");
-}
 
 Eigen::Matrix4d to_eigen(const aiMatrix4x4& m) {
   Eigen::Matrix4d result;
@@ -139,8 +100,8 @@ void merge_vertices(TriangleMesh& mesh, double tolerance) {
 }  // namespace
 
 TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve) {
-  const std::string path = path_of(source.uri, case_directory, resolve);
-  check_file(path);
+  const std::string path = file_path("mesh", source.uri, case_directory, resolve);
+  check_file("mesh", path);
 
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshFileAccess);  // the importer owns it

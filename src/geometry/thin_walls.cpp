@@ -16,7 +16,11 @@ constexpr double rounding = 1e-3;
 class Looker {
  public:
   Looker(const Layout& layout, int dimensions, double thickness)
-      : facets_(layout.facets), dimensions_(dimensions), thickness_((1 - rounding) * thickness), tolerance_(1e-4 * layout.spacing) {
+      : facets_(layout.facets),
+        moving_(layout.moving),
+        dimensions_(dimensions),
+        thickness_((1 - rounding) * thickness),
+        tolerance_(1e-4 * layout.spacing) {
     if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), thickness, tolerance_);
     for (const Facet& facet : facets_) {
       Box box{facet.corners[0], facet.corners[0]};
@@ -28,15 +32,15 @@ class Looker {
     }
   }
 
-  /// How thick the wall is behind a place; none if it is thicker than asked.
-  std::optional<double> look(const Vector3d& place, const Vector3d& normal) const {
+  /// How thick the wall of an owner is behind a place; none if it is thicker than asked.
+  std::optional<double> look(const Vector3d& place, const Vector3d& normal, int owner) const {
     std::optional<double> least;
     if (!grid_) return least;
     const Vector3d end = place + thickness_ * normal, margin = Vector3d::Constant(tolerance_);
     for (const int f : grid_->overlapping({place.cwiseMin(end) - margin, place.cwiseMax(end) + margin})) {
       const Facet& facet = facets_[f];
       const double facing = facet.normal.dot(normal);
-      if (facing > opposite) continue;
+      if (facing > opposite || (owner != facet.owner && (moves(owner) || moves(facet.owner)))) continue;  // a body on the floor is no plate
       const double depth = facet.normal.dot(facet.plane_point - place) / facing;
       if (depth < -tolerance_ || depth > std::min(thickness_, least.value_or(thickness_))) continue;
       const Vector3d hit = place + depth * normal;
@@ -47,6 +51,8 @@ class Looker {
   }
 
  private:
+  bool moves(int owner) const { return static_cast<std::size_t>(owner) < moving_.size() && moving_[owner]; }
+
   /// In 2-D a segment is a triangle without area.
   static std::vector<WallTriangle> as_triangles(const std::vector<Facet>& facets, int dimensions) {
     std::vector<WallTriangle> triangles;
@@ -66,6 +72,7 @@ class Looker {
   }
 
   const std::vector<Facet>& facets_;
+  std::vector<bool> moving_;
   std::vector<Box> boxes_;
   int dimensions_;
   double thickness_, tolerance_;
@@ -125,6 +132,7 @@ std::vector<Brim> find_brims(const Layout& layout, const std::vector<bool>& thin
       brim.from = facet.corners[k];
       brim.to = dimensions == 2 ? brim.from : facet.corners[(k + 1) % 3];
       brim.face_normal = facet.normal;
+      brim.owner = facet.owner;
       const Vector3d opposite_corner = dimensions == 2 ? facet.corners[1 - k] : facet.corners[(k + 2) % 3];
       Vector3d inwards = opposite_corner - brim.from;
       if (dimensions == 3) {
@@ -164,7 +172,7 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   for (const Facet& facet : layout.facets) {
     bool thin = false;
     for (const Vector3d& place : places_on(facet, dimensions)) {
-      const std::optional<double> found = looker.look(place, facet.normal);
+      const std::optional<double> found = looker.look(place, facet.normal, facet.owner);
       if (!found) continue;
       thin = true;
       if (!parts.thinnest || *found < parts.thinnest->thickness) parts.thinnest = ThinWall{facet.owner, *found, place};
@@ -181,9 +189,10 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   for (const Facet& triangle : layout.triangles) {
     const Vector3d middle = dimensions == 2 ? Vector3d(0.5 * (triangle.corners[0] + triangle.corners[1]))
                                             : Vector3d((triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0);
-    parts.triangles.push_back(parts.thinnest && looker.look(middle, triangle.normal).has_value());
+    parts.triangles.push_back(parts.thinnest && looker.look(middle, triangle.normal, triangle.owner).has_value());
   }
-  for (const WallElement& wall : layout.walls) parts.walls.push_back(parts.thinnest && looker.look(wall.centre, wall.normal).has_value());
+  for (const WallElement& wall : layout.walls)
+    parts.walls.push_back(parts.thinnest && looker.look(wall.centre, wall.normal, wall.owner).has_value());
   return parts;
 }
 

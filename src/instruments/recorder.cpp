@@ -1,14 +1,57 @@
 #include "wavetank/instruments/recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace wavetank {
 
-Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver) {
+namespace {
+
+constexpr std::size_t state_size = 19, joint_size = 3;
+
+std::vector<double> values_of(const RigidWorld& world) {
+  std::vector<double> values;
+  const auto add = [&values](const auto& vector) { values.insert(values.end(), vector.data(), vector.data() + vector.size()); };
+  for (std::size_t o = 0; o < world.count(); ++o) {
+    const RigidState state = o == 0 ? world.state(0) : world.state_in_tank(o);
+    add(state.position);
+    add(state.orientation.coeffs());
+    for (const Vector3d& vector : {state.velocity, state.angular_velocity, state.acceleration, state.angular_acceleration}) add(vector);
+  }
+  for (std::size_t j = 0; j < world.joint_count(); ++j) {
+    const JointState joint = world.joint_state(j);
+    for (const double value : {joint.position, joint.velocity, joint.effort}) values.push_back(value);
+  }
+  return values;
+}
+
+PoseSample pose_sample(double time, const std::vector<double>& values, std::size_t owners) {
+  PoseSample sample;
+  sample.time = time;
+  for (std::size_t o = 0; o < owners; ++o) {
+    const double* v = values.data() + o * state_size;
+    RigidState state;
+    state.position = Vector3d(v);
+    state.orientation = Quaterniond(v + 3).normalized();  // interpolated within a step, in which it hardly turns
+    state.velocity = Vector3d(v + 7);
+    state.angular_velocity = Vector3d(v + 10);
+    state.acceleration = Vector3d(v + 13);
+    state.angular_acceleration = Vector3d(v + 16);
+    sample.states.push_back(state);
+  }
+  for (std::size_t k = owners * state_size; k + joint_size <= values.size(); k += joint_size)
+    sample.joints.push_back({values[k], values[k + 1], values[k + 2]});
+  return sample;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world) : world_(world) {
   add_pressures(scene, solver);
   add_levels(scene, layout, solver);
   add_wrenches(scene);
   add_energies(scene);
+  add_poses(scene);
 }
 
 void Recorder::add_pressures(const Case& scene, const Solver& solver) {
@@ -43,10 +86,17 @@ void Recorder::add_levels(const Case& scene, const Layout& layout, const Solver&
 
 void Recorder::add_wrenches(const Case& scene) {
   instruments_.push_back({SampleClock(scene.instruments.wrench_rate.value_or(scene.instruments.rate)),
-                          [](Solver& fluid) {
+                          [this](Solver& fluid) {
                             Values values;
-                            for (const WallWrench& wrench : fluid.wrenches())
-                              for (const Vector3d& part : wrench) values.insert(values.end(), part.data(), part.data() + 3);
+                            const std::vector<WallWrench> wrenches = fluid.wrenches();
+                            for (std::size_t o = 0; o < wrenches.size(); ++o) {
+                              const Quaterniond back =
+                                  o == 0 || !world_.moves(o) ? Quaterniond::Identity() : world_.state_in_tank(o).orientation.conjugate();
+                              for (const Vector3d& part : wrenches[o]) {
+                                const Vector3d own = back * part;
+                                values.insert(values.end(), own.data(), own.data() + 3);
+                              }
+                            }
                             return values;
                           },
                           [this](double time, const Values& values) {
@@ -72,6 +122,17 @@ void Recorder::add_energies(const Case& scene) {
                           },
                           [this](double time, const Values& values) {
                             samples_.energies.push_back({time, values[0], values[1], values[2], values[3]});
+                          },
+                          {},
+                          false});
+}
+
+void Recorder::add_poses(const Case& scene) {
+  const bool any = world_.anything_moves();
+  instruments_.push_back({SampleClock(scene.instruments.pose_rate.value_or(std::min(scene.instruments.rate, 100.0))),
+                          [this, any](Solver&) { return any ? values_of(world_) : Values(); },
+                          [this, any](double time, const Values& values) {
+                            if (any) samples_.poses.push_back(pose_sample(time, values, world_.count()));
                           },
                           {},
                           false});

@@ -84,7 +84,8 @@ void BagRun::start() {
   energies_ = simulation_->energies();
   next_status_ = next_cloud_ = first_.time;
   progress_.set_begin(first_.time);
-  messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout());
+  frames_ = body_frames(case_, reference_points(simulation_->bodies()));
+  messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout(), frames_);
   if (bag_) write_first_messages();
 }
 
@@ -111,7 +112,7 @@ void BagRun::write_samples() {
   seconds_ = elapsed();
   if (!bag_) return;
   messages_->emit(samples, clock_,
-                  [this](const std::string& topic, const auto& message) { bag_->write(topic, message.header.stamp, message); });
+                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { bag_->write(topic, stamp, message); });
   for (const EnergySample& energies : samples.energies) write_status(energies);
   if (options_.clouds) write_clouds();
 }
@@ -119,9 +120,9 @@ void BagRun::write_samples() {
 void BagRun::write_first_messages() {
   const ros::Time stamp = clock_.at(first_.time);
   bag_->write_latched("case", stamp, case_message(simulation_->scene(), device_));
-  bag_->write_latched("markers", stamp, markers(case_, simulation_->layout()));
+  bag_->write_latched("markers", stamp, markers(case_, simulation_->layout(), frames_));
   tf2_msgs::TFMessage transforms;
-  transforms.transforms = static_transforms(case_, simulation_->layout());
+  transforms.transforms = static_transforms(case_, frames_);
   bag_->write_latched("/tf_static", stamp, transforms);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "wavetank/node/names.h"
+#include "wavetank/node/geometry_messages.h"
 
 namespace wavetank {
 
@@ -20,14 +20,6 @@ std_msgs::ColorRGBA colour(float red, float green, float blue, float opacity) {
   result.b = blue;
   result.a = opacity;
   return result;
-}
-
-geometry_msgs::Point point_message(const Vector3d& position) {
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
 }
 
 Marker marker(const Case& checked, const std::string& group, int id, int type, const std_msgs::ColorRGBA& shade) {
@@ -60,10 +52,7 @@ void place_resource(Marker& result, const MeshSource& source) {
   const Eigen::Quaterniond turn = Eigen::AngleAxisd(source.rotation.z(), Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(source.rotation.y(), Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX());
-  result.pose.orientation.x = turn.x();
-  result.pose.orientation.y = turn.y();
-  result.pose.orientation.z = turn.z();
-  result.pose.orientation.w = turn.w();
+  result.pose.orientation = quaternion_message(turn);
 }
 
 /// `source`: the mesh file that the layout's mesh was read from, null for a parametric shape.
@@ -96,6 +85,16 @@ Marker label(const Case& checked, const std::string& group, int id, const std::s
   return result;
 }
 
+/// A marker that is drawn where the case's geometry has the body, in the frame of a body that moves.
+Marker moving_with(const BodyFrame& frame, Marker drawn) {
+  if (!frame.moves) return drawn;
+  drawn.header.frame_id = frame.name;
+  drawn.pose.position.x -= frame.origin.x();
+  drawn.pose.position.y -= frame.origin.y();
+  drawn.pose.position.z -= frame.origin.z();
+  return drawn;
+}
+
 }  // namespace
 
 std::vector<Vector3d> feature_edges(const TriangleMesh& mesh, double angle) {
@@ -117,7 +116,7 @@ std::vector<Vector3d> feature_edges(const TriangleMesh& mesh, double angle) {
   return ends;
 }
 
-visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layout) {
+visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layout, const std::vector<BodyFrame>& frames) {
   const double size = (layout.domain.max - layout.domain.min).norm();
   visualization_msgs::MarkerArray drawing;
   Marker erase = marker(checked, "", 0, Marker::CUBE, colour(0, 0, 0, 0));
@@ -130,9 +129,11 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   for (std::size_t i = 0; i < checked.bodies.size(); ++i) {
     const int id = static_cast<int>(i);
     const TriangleMesh& mesh = layout.meshes[i + 1];
+    const auto* source = std::get_if<MeshSource>(&checked.bodies[i].shape);
     drawing.markers.push_back(
-        surface_marker(checked, "bodies", id, mesh, std::get_if<MeshSource>(&checked.bodies[i].shape), colour(0.95F, 0.6F, 0.15F, 1.0F)));
-    drawing.markers.push_back(edge_marker(checked, "body edges", id, mesh, 0.0015 * size, colour(0.35F, 0.2F, 0.05F, 1.0F)));
+        moving_with(frames[i + 1], surface_marker(checked, "bodies", id, mesh, source, colour(0.95F, 0.6F, 0.15F, 1.0F))));
+    drawing.markers.push_back(
+        moving_with(frames[i + 1], edge_marker(checked, "body edges", id, mesh, 0.0015 * size, colour(0.35F, 0.2F, 0.05F, 1.0F))));
   }
 
   const double text_height = 0.014 * size;

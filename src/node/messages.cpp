@@ -4,27 +4,12 @@
 #include <algorithm>
 
 #include "wavetank/common/version.h"
+#include "wavetank/node/geometry_messages.h"
 #include "wavetank/scene/case_reader.h"
 
 namespace wavetank {
 
 namespace {
-
-geometry_msgs::Point point_message(const Vector3d& position) {
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
-}
-
-geometry_msgs::Vector3 vector_message(const Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
 
 geometry_msgs::TransformStamped translation(const std::string& parent, const std::string& child, const Vector3d& to) {
   geometry_msgs::TransformStamped transform;
@@ -37,7 +22,8 @@ geometry_msgs::TransformStamped translation(const std::string& parent, const std
 
 }  // namespace
 
-SampleMessages::SampleMessages(const Case& checked, const Layout& layout) : publishing_(checked.publishing) {
+SampleMessages::SampleMessages(const Case& checked, const Layout& layout, const std::vector<BodyFrame>& frames)
+    : publishing_(checked.publishing), frames_(frames), poses_(checked, frames) {
   check_names(checked);
   probes_.header.frame_id = gauges_.header.frame_id = publishing_.world_frame;
   for (const PressureProbeCase& probe : checked.instruments.pressure_probes) {
@@ -50,12 +36,8 @@ SampleMessages::SampleMessages(const Case& checked, const Layout& layout) : publ
     gauges_.names.push_back(gauge.name);
     gauges_.positions.push_back(point_message({gauge.position.x(), gauge.position.y(), layout.domain.min.z()}));
   }
-  wrench_topics_.push_back(body_topic(tank_name));
-  wrench_frames_.push_back(publishing_.world_frame);
-  for (const BodyCase& body : checked.bodies) {
-    wrench_topics_.push_back(body_topic(body.name));
-    wrench_frames_.push_back(body_frame(publishing_, body.name));
-  }
+  wrench_topics_.push_back(wrench_topic(tank_name));
+  for (const BodyCase& body : checked.bodies) wrench_topics_.push_back(wrench_topic(body.name));
 }
 
 ProbeArray SampleMessages::probes(const PressureSample& sample, const StampClock& clock) const {
@@ -93,22 +75,23 @@ geometry_msgs::WrenchStamped SampleMessages::wrench(std::size_t index, Part part
     force += wrench.viscous_force;
     torque += wrench.viscous_torque;
   }
+  const BodyFrame& frame = frames_[index];
+  torque += (frame.reference - frame.origin).cross(force);  // a free tank's is about its centre of mass, not its frame's origin
   geometry_msgs::WrenchStamped message;
   message.header.stamp = clock.at(sample.time);
-  message.header.frame_id = wrench_frames_[index];
+  message.header.frame_id = frame.name;
   message.wrench.force = vector_message(force);
   message.wrench.torque = vector_message(torque);
   return message;
 }
 
-std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout) {
+std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const std::vector<BodyFrame>& frames) {
   const PublishingCase& publishing = checked.publishing;
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
     transforms.push_back(translation(publishing.world_frame, probe_frame(publishing, probe.name), probe.position));
-  for (std::size_t i = 0; i < checked.bodies.size(); ++i)
-    transforms.push_back(
-        translation(publishing.world_frame, body_frame(publishing, checked.bodies[i].name), layout.meshes[i + 1].centre_of_volume()));
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (!frames[i].moves) transforms.push_back(translation(frames[i].parent, frames[i].name, frames[i].origin));
   return transforms;
 }
 

@@ -17,7 +17,19 @@ std::string graph_name(const std::string& name) {
 
 std::string probe_topic(const std::string& probe) { return "probes/" + graph_name(probe); }
 
-std::string body_topic(const std::string& body) { return "bodies/" + graph_name(body) + "/wrench"; }
+namespace {
+
+std::string body_topic(const std::string& body, const std::string& what) { return "bodies/" + graph_name(body) + "/" + what; }
+
+}  // namespace
+
+std::string wrench_topic(const std::string& body) { return body_topic(body, "wrench"); }
+
+std::string odometry_topic(const std::string& body) { return body_topic(body, "odom"); }
+
+std::string outside_wrench_topic(const std::string& body) { return body_topic(body, "external_wrench"); }
+
+std::string command_topic(const std::string& body) { return body_topic(body, "cmd_vel"); }
 
 std::string probe_frame(const PublishingCase& publishing, const std::string& probe) {
   return publishing.world_frame + "/probes/" + graph_name(probe);
@@ -26,6 +38,8 @@ std::string probe_frame(const PublishingCase& publishing, const std::string& pro
 std::string body_frame(const PublishingCase& publishing, const std::string& body) {
   return publishing.world_frame + "/bodies/" + graph_name(body);
 }
+
+std::string inertial_frame(const PublishingCase& publishing) { return publishing.world_frame == "world" ? "inertial" : "world"; }
 
 namespace {
 
@@ -38,8 +52,8 @@ void claim(std::map<std::string, std::string>& taken, const std::string& topic, 
 
 void check_names(const Case& checked) {
   std::map<std::string, std::string> taken;
-  claim(taken, body_topic(tank_name), "the tank");
-  for (const BodyCase& body : checked.bodies) claim(taken, body_topic(body.name), "body '" + body.name + "'");
+  claim(taken, wrench_topic(tank_name), "the tank");
+  for (const BodyCase& body : checked.bodies) claim(taken, wrench_topic(body.name), "body '" + body.name + "'");
   for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
     claim(taken, probe_topic(probe.name), "pressure probe '" + probe.name + "'");
 }

@@ -153,6 +153,7 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   reader.read("bag_clouds", setup.parameters.bag_clouds);
   reader.read("exit_at_end", setup.parameters.exit_at_end);
   reader.read("wait_for_subscribers", setup.parameters.wait_for_subscribers);
+  reader.read("external_wrench_timeout", setup.parameters.external_wrench_timeout);
   take(parameters, "diagnostic_period");  // diagnostic_updater's own
   take(parameters, clock_reached);        // the node's own note
 

@@ -113,6 +113,7 @@ void SolverLoop::loop() {
 }
 
 void SolverLoop::advance() {
+  if (hooks_.before_step) hooks_.before_step(*simulation_);
   try {
     simulation_->advance();
   } catch (const Violation&) {

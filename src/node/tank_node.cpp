@@ -33,6 +33,7 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
       private_(private_handle),
       setup_(std::move(setup)),
       case_(setup_.scene),
+      inputs_(private_, case_, setup_.parameters.external_wrench_timeout),
       clock_due_(Clock::now()),
       diagnostics_(handle_, private_),
       last_tick_(Clock::now()) {
@@ -79,7 +80,14 @@ void TankNode::advertise_topics() {
   std::vector<std::string> bodies{tank_name};
   for (const BodyCase& body : case_.bodies) bodies.push_back(body.name);
   for (const std::string& body : bodies)
-    for (const char* part : {"", "/pressure", "/viscous"}) advertise(body_topic(body) + part, geometry_msgs::WrenchStamped());
+    for (const char* part : {"", "/pressure", "/viscous"}) advertise(wrench_topic(body) + part, geometry_msgs::WrenchStamped());
+  std::vector<std::string> moving;
+  if (case_.tank.motion != Motion::fixed) moving.push_back(tank_name);
+  for (const BodyCase& body : case_.bodies)
+    if (body.motion != Motion::fixed) moving.push_back(body.name);
+  for (const std::string& body : moving) advertise(odometry_topic(body), nav_msgs::Odometry());
+  if (!moving.empty()) moving_transforms_ = std::make_unique<TransformPublisher>(handle_);
+  if (!case_.joints.empty()) advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
   markers_ = private_.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
   case_publisher_ = private_.advertise<std_msgs::String>("case", 1, true);
   status_ = private_.advertise<SolverStatus>("status", 10);
@@ -119,7 +127,9 @@ LoopHooks TankNode::make_hooks() {
   LoopHooks hooks;
   hooks.started = [this](const Simulation& simulation) { started(simulation); };
   hooks.stepped = [this](const Simulation& simulation, const Samples& samples) { stepped(simulation, samples); };
+  hooks.before_step = [this](Simulation& simulation) { inputs_.apply(simulation); };
   hooks.restarted = [this](const SolverState& last) {
+    inputs_.clear();
     clock_.restart_after(last.time);
     next_bag_cloud_ = next_bag_status_ = 0.0;
     log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");
@@ -130,13 +140,14 @@ LoopHooks TankNode::make_hooks() {
 }
 
 void TankNode::started(const Simulation& simulation) {
-  messages_ = std::make_unique<SampleMessages>(case_, simulation.layout());
-  const auto drawing = markers(case_, simulation.layout());
+  const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation.bodies()));
+  messages_ = std::make_unique<SampleMessages>(case_, simulation.layout(), frames);
+  const auto drawing = markers(case_, simulation.layout(), frames);
   const auto scene = case_message(simulation.scene(), simulation.device_description());
   markers_.publish(drawing);
   case_publisher_.publish(scene);
-  const auto transforms = static_transforms(case_, simulation.layout());
-  if (!transforms.empty()) transforms_.sendTransform(transforms);
+  const auto transforms = static_transforms(case_, frames);
+  if (!transforms.empty()) static_transforms_.sendTransform(transforms);
   const double time = simulation.state().time;
   next_bag_cloud_ = next_bag_status_ = time;
   if (bag_) {
@@ -154,8 +165,10 @@ void TankNode::started(const Simulation& simulation) {
 void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   const double time = simulation.state().time;
   // Before the samples, so that nobody gets one from the future.
-  if (!samples.pressures.empty() || Clock::now() >= clock_due_) publish_clock(time);
-  messages_->emit(samples, clock_, [this](const std::string& topic, const auto& message) { publish_sample(topic, message); });
+  const bool has_samples = !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty();
+  if (has_samples || Clock::now() >= clock_due_) publish_clock(time);
+  messages_->emit(samples, clock_,
+                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { publish_sample(topic, stamp, message); });
   if (!bag_) return;
   for (const EnergySample& energies : samples.energies) {
     if (energies.time < next_bag_status_ - 1e-9) continue;
@@ -172,10 +185,17 @@ void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   if (setup_.parameters.bag_clouds) write_cloud(simulation, time);
 }
 
+void TankNode::send(const std::string&, const tf2_msgs::TFMessage& message) { moving_transforms_->publish(message); }
+
 template <class Message>
-void TankNode::publish_sample(const std::string& topic, const Message& message) {
+void TankNode::send(const std::string& topic, const Message& message) {
   sample_publishers_.at(topic).publish(message);
-  if (bag_) bag_->write(topic, message.header.stamp, message);
+}
+
+template <class Message>
+void TankNode::publish_sample(const std::string& topic, const ros::Time& stamp, const Message& message) {
+  send(topic, message);
+  if (bag_) bag_->write(topic, stamp, message);
 }
 
 void TankNode::write_cloud(const Simulation& simulation, double time) {

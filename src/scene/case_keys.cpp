@@ -1,5 +1,10 @@
 #include "case_keys.h"
 
+#include "joint_keys.h"
+#include "mesh_keys.h"
+#include "motion_values.h"
+#include "rigid_keys.h"
+
 namespace wavetank::scene {
 namespace {
 
@@ -19,17 +24,10 @@ Section<Box> box_section() {
   return section;
 }
 
+// The keys of a box or a mesh that fills the variant `shape`.
 template <class T, class Shape>
 void add_mesh_keys(Section<T>& section, Shape shape) {
-  section
-      .template key_of<MeshSource>(
-          shape, "mesh", &MeshSource::uri, nonempty_text(), "",
-          "Mesh file (STL, OBJ, DAE, ...): package://, file://, an absolute path, or one relative to the case file.")
-      .required = true;
-  section.template key_of<MeshSource>(shape, "scale", &MeshSource::scale, number(greater_than(0)), "", "Metres per unit of the mesh file.");
-  section.template key_of<MeshSource>(shape, "translation", &MeshSource::translation, vector(), "m", "Moves the mesh; applied last.");
-  section.template key_of<MeshSource>(shape, "rotation", &MeshSource::rotation, angles(), "°",
-                                      "Roll, pitch and yaw about the fixed axes x, y, z; applied after the scale.");
+  declare_mesh_keys([&](auto... key) -> KeyDescription& { return section.template key_of<MeshSource>(shape, key...); });
   section.exactly_one_of({{"box"}, {"mesh", "scale", "translation", "rotation"}});
 }
 
@@ -79,11 +77,15 @@ Section<TankCase> tank_section() {
   Section<TankCase> section;
   section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
   add_mesh_keys(section, &TankCase::shape);
-  section.key("splash_guard", &TankCase::splash_guard, flag(), "",
-              "Keeps spray above the tank's highest point over the tank, as if its walls went on upwards; without it, a particle that flies "
-              "out stops the run.");
+  section.key(
+      "splash_guard", &TankCase::splash_guard, flag(), "",
+      "Keeps spray above the tank's highest point over the tank, as if its walls went on upwards; without it, a particle that flies "
+      "out stops the run.");
   section.key("periodic", &TankCase::periodic, axes(), "",
               "Directions in which the tank repeats itself: it has no walls at these ends, and what leaves at one comes in at the other.");
+  section.key("motion", &TankCase::motion, motion_word(), "",
+              "How the tank moves; the fluid is solved in its frame, and the case's coordinates are those of the start.");
+  add_rigid_keys(section);
   return section;
 }
 
@@ -93,11 +95,19 @@ Section<BodyCase> body_section() {
       .key("name", &BodyCase::name, name(), "",
            "Part of the names of the body's topics and frame; its own among bodies, probes and gauges.")
       .required = true;
-  section.key("motion", &BodyCase::motion, choice<Motion>({{"fixed", Motion::fixed}}), "", "How the body moves.");
+  section.key("motion", &BodyCase::motion, motion_word(), "",
+              "How the body moves: not at all, by its weight and all forces on it, as prescribed here, or at a velocity commanded while it "
+              "runs.");
   section.key("surface_velocity", &BodyCase::surface_velocity, vector(), "m/s",
               "Of a belt: its surface runs at this velocity while the body stands; only the part along the surface acts.");
   section.key_of<Box>(&BodyCase::shape, "box", Whole{}, section_of(box_section()), "", "A box.").required = true;
   add_mesh_keys(section, &BodyCase::shape);
+  add_rigid_keys(section);
+  section.rule([](const BodyCase& body, const Setting& map, const std::string& path, const Context&) {
+    if (body.motion == Motion::fixed || body.surface_velocity.isZero(0.0)) return;
+    throw Error(map.find("surface_velocity")->place.describe() + ": " + join_path(path, "surface_velocity") +
+                " is for bodies that stand only; leave it out, or set " + join_path(path, "motion") + " to fixed");
+  });
   return section;
 }
 
@@ -189,6 +199,8 @@ Section<InstrumentsCase> instruments_section() {
               "Of the force and torque on tank and bodies; `auto` is `instruments/rate`.");
   section.key("energy_rate", &InstrumentsCase::energy_rate, number_or_auto(rates), "Hz",
               "Of energies and mass; `auto` is `instruments/rate`.");
+  section.key("pose_rate", &InstrumentsCase::pose_rate, number_or_auto(rates), "Hz",
+              "Of moving bodies' poses and of joints; `auto` is 100, or `instruments/rate` where that is less.");
   return section;
 }
 
@@ -221,6 +233,7 @@ Section<Case> declare_case() {
   section.key("fluid", &Case::fluid, section_of(fluid_section()), "", "The water.").required = true;
   section.key("tank", &Case::tank, section_of(tank_section()), "", "The tank: a box or a mesh.").required = true;
   section.key("bodies", &Case::bodies, list_of(body_section()), "", "Bodies in the tank: boxes or closed meshes.");
+  section.key("joints", &Case::joints, list_of(joint_section()), "", "Joints between bodies, or a body and the tank or the world.");
   section.key("numerics", &Case::numerics, section_of(numerics_section()), "", "The method.");
   section.key("instruments", &Case::instruments, section_of(instruments_section()), "", "What is measured.");
   section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds are published.");

@@ -41,11 +41,24 @@ Case read_settings(scene::Setting root, const std::vector<Override>& overrides) 
 bool is_relative_path(const std::string& uri) { return uri.find("://") == std::string::npos && uri.front() != '/'; }
 
 // The written case has no file that a relative path could refer to.
-template <class Shape>
-void make_mesh_path_absolute(Shape& shape, const std::string& directory) {
-  auto* mesh = std::get_if<MeshSource>(&shape);
-  if (mesh != nullptr && !directory.empty() && !mesh->uri.empty() && is_relative_path(mesh->uri)) mesh->uri = directory + "/" + mesh->uri;
-}
+class AbsolutePaths {
+ public:
+  explicit AbsolutePaths(const std::string& directory) : directory_(directory) {}
+
+  template <class Whole>
+  void make(Whole& whole) const {
+    if (auto* mesh = std::get_if<MeshSource>(&whole.shape)) make_path(mesh->uri);
+    for (MeshSource& part : whole.rigid.collision_parts) make_path(part.uri);
+    for (RecordCase& record : whole.rigid.prescribed.records) make_path(record.file);
+  }
+
+ private:
+  void make_path(std::string& uri) const {
+    if (!directory_.empty() && !uri.empty() && is_relative_path(uri)) uri = directory_ + "/" + uri;
+  }
+
+  const std::string& directory_;
+};
 
 }  // namespace
 
@@ -61,8 +74,9 @@ Case read_case_text(const std::string& yaml, const std::string& source, const st
 
 std::string write_case(const Case& checked) {
   Case written = checked;
-  make_mesh_path_absolute(written.tank.shape, checked.directory);
-  for (BodyCase& body : written.bodies) make_mesh_path_absolute(body.shape, checked.directory);
+  const AbsolutePaths paths(checked.directory);
+  paths.make(written.tank);
+  for (BodyCase& body : written.bodies) paths.make(body);
   return scene::write_settings(scene::case_section().write(written, scene::Context{written.dimensions}));
 }
 

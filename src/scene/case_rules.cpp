@@ -1,6 +1,7 @@
 #include <map>
 
 #include "case_keys.h"
+#include "joint_keys.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank::scene {
@@ -30,6 +31,12 @@ class NameCheck {
   std::map<std::string, std::string> paths_;  ///< by name
 };
 
+// Joints take the world for one of their ends.
+void check_body_name(const std::string& name, const std::string& path, const Setting& root) {
+  if (name != "world") return;
+  throw Error(nearest_setting(root, path).place.describe() + ": " + path + " is world, which is reserved for the world; give another name");
+}
+
 void check_walls(const Case& read, const Setting& root) {
   const WallCase& walls = read.numerics.walls;
   const auto clash = [&](const std::string& path, const std::string& text) {
@@ -43,6 +50,8 @@ void check_walls(const Case& read, const Setting& root) {
           "ghost, which mirrors the particles at the tank's planes only; leave out the bodies, or choose boundary_integral");
   if (walls.method != WallMethod::ghost && walls.repulsion > 0.0)
     clash("numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
+  if (walls.method == WallMethod::ghost && read.tank.motion != Motion::fixed)
+    clash("numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
   // along x and y gravity may drive a channel; along z there is a free surface
   if (read.tank.periodic[2] && read.gravity.z() != 0.0)
     clash("tank/periodic", "periodic along z, along which gravity acts; set gravity to zero along z, or leave z out");
@@ -60,8 +69,11 @@ void check_case(const Case& read, const Setting& root) {
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
   check_walls(read, root);
+  check_joints(read, root);
   NameCheck names(read, root);
   names.check(read.bodies, "bodies");
+  for (std::size_t i = 0; i < read.bodies.size(); ++i)
+    check_body_name(read.bodies[i].name, join_path(join_path("bodies", i), "name"), root);
   names.check(read.instruments.pressure_probes, "instruments/pressure_probes");
   names.check(read.instruments.wave_gauges, "instruments/wave_gauges");
 }

@@ -35,6 +35,16 @@ class Section {
         [member](const T& target) -> const Value* { return &std::invoke(member, target); }, codec, unit, description);
   }
 
+  /// A key that is written only where `belongs` holds of the whole section: what a rule refuses elsewhere.
+  template <class Condition, class Member, class Value>
+  KeyDescription& key_where(Condition belongs, const std::string& name, Member member, Codec<Value> codec, const std::string& unit,
+                            const std::string& description) {
+    return add<Value>(
+        name, [member](T& target) -> Value& { return std::invoke(member, target); },
+        [belongs, member](const T& target) -> const Value* { return belongs(target) ? &std::invoke(member, target) : nullptr; }, codec,
+        unit, description);
+  }
+
   /// A key that fills `member` of the alternative Alternative of the variant `shape` (a member pointer of T, or Whole when T is the
   /// variant).
   template <class Alternative, class Shape, class Member, class Value>
@@ -65,6 +75,11 @@ class Section {
     }
   }
 
+  /// For units that depend on another key of the section: `from_file` puts what was read into SI units, `to_file` does the reverse.
+  void converts(std::function<void(T&)> from_file, std::function<void(T&)> to_file) {
+    *conversion_ = {std::move(from_file), std::move(to_file)};
+  }
+
   /// A further check of the section once it is read.
   void rule(Rule rule) { rules_->push_back(std::move(rule)); }
 
@@ -74,21 +89,16 @@ class Section {
       const Setting* setting = map.find(key.description.name);
       if (setting != nullptr) key.read(value, *setting, {join_path(path, key.description.name), key.description.unit}, context);
     }
+    if (conversion_->from_file) conversion_->from_file(value);
     for (const Rule& rule : *rules_) rule(value, map, path, context);
     return value;
   }
 
   Setting write(const T& value, const Context& context) const {
-    Setting map = Setting::map();
-    int alternative = 0;  // a settled case has both a spacing and a number of particles: only the first is written
-    for (const Key& key : *keys_) {
-      if (alternative != 0 && key.description.alternative != 0 && key.description.alternative != alternative) continue;
-      std::optional<Setting> setting = key.write(value, context);
-      if (!setting) continue;
-      if (key.description.alternative != 0) alternative = key.description.alternative;
-      map.entries.emplace_back(key.description.name, std::move(*setting));
-    }
-    return map;
+    if (!conversion_->to_file) return write_keys(value, context);
+    T converted = value;
+    conversion_->to_file(converted);
+    return write_keys(converted, context);
   }
 
   std::vector<KeyDescription> descriptions() const {
@@ -103,6 +113,23 @@ class Section {
     std::function<void(T&, const Setting&, const Item&, Context&)> read;
     std::function<std::optional<Setting>(const T&, const Context&)> write;
   };
+
+  struct Conversion {
+    std::function<void(T&)> from_file, to_file;
+  };
+
+  Setting write_keys(const T& value, const Context& context) const {
+    Setting map = Setting::map();
+    int alternative = 0;  // a settled case has both a spacing and a number of particles: only the first is written
+    for (const Key& key : *keys_) {
+      if (alternative != 0 && key.description.alternative != 0 && key.description.alternative != alternative) continue;
+      std::optional<Setting> setting = key.write(value, context);
+      if (!setting) continue;
+      if (key.description.alternative != 0) alternative = key.description.alternative;
+      map.entries.emplace_back(key.description.name, std::move(*setting));
+    }
+    return map;
+  }
 
   template <class Value, class Make, class Find>
   KeyDescription& add(const std::string& name, Make make, Find find, const Codec<Value>& codec, const std::string& unit,
@@ -127,6 +154,7 @@ class Section {
   // Shared, so that a section can be part of a codec's functions; nothing is added after that.
   std::shared_ptr<std::vector<Key>> keys_ = std::make_shared<std::vector<Key>>();
   std::shared_ptr<std::vector<Rule>> rules_ = std::make_shared<std::vector<Rule>>();
+  std::shared_ptr<Conversion> conversion_ = std::make_shared<Conversion>();
 };
 
 /// A key that holds a section.

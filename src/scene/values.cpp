@@ -9,8 +9,6 @@
 namespace wavetank::scene {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
-
 // The shortest text that reads back to the same number, whatever the process's locale.
 std::string number_text(double number) {
   for (int digits = 15;; ++digits) {
@@ -74,23 +72,7 @@ double whole_number_in_range(const Setting& setting, const Item& item, const Ran
 
 Setting number_setting(double number) { return Setting::scalar(number_text(number)); }
 
-Setting vector_setting(const Vector3d& vector, int count = 3) {
-  std::vector<Setting> numbers;
-  numbers.reserve(count);
-  for (int axis = 0; axis < count; ++axis) numbers.push_back(number_setting(vector[axis]));
-  return Setting::list(std::move(numbers));
-}
-
-// The numbers of a list, `least` to `greatest` of them.
-std::vector<double> numbers_of(const Setting& setting, const Item& item, std::size_t least, std::size_t greatest,
-                               const std::string& demand) {
-  if (setting.kind != Setting::Kind::list || setting.items.size() < least || setting.items.size() > greatest) refuse(setting, item, demand);
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < setting.items.size(); ++i) {
-    numbers.push_back(finite_number(setting.items[i], {join_path(item.path, i), item.unit}, "a number"));
-  }
-  return numbers;
-}
+Setting vector_setting(const Vector3d& vector, int count = 3) { return list_of_numbers({vector.data(), vector.data() + count}); }
 
 Vector3d read_vector(const Setting& setting, const Item& item, const Context& context) {
   const bool flat = context.dimensions == 2;
@@ -117,11 +99,62 @@ Codec<std::string> matching_text(const std::string& type, const std::string& pat
           [](const std::string& value, const Context&) -> std::optional<Setting> { return Setting::string(value); }};
 }
 
+// A number, or a word that stands for none.
+Codec<std::optional<double>> number_or(const std::string& word, Range range) {
+  const std::string or_word = "or " + word;
+  return {"number " + or_word, range.describe() + "; " + or_word,
+          [range, word, or_word](const Setting& setting, const Item& item, Context&) -> std::optional<double> {
+            if (setting.kind == Setting::Kind::scalar && setting.text == word) return std::nullopt;
+            double number = 0;
+            const std::string demand = number_demand(range, "a number") + ", " + or_word;
+            if (read_number(setting, number) == Reading::not_a_number) refuse(setting, item, demand);
+            number = finite_number(setting, item, demand);
+            if (!range.contains(number)) refuse(setting, item, range.describe() + ", " + or_word);
+            return number;
+          },
+          [word](const std::optional<double>& value, const Context&) -> std::optional<Setting> {
+            return value ? number_setting(*value) : Setting::string(word);
+          }};
+}
+
 }  // namespace
+
+double in_degrees(double radians) {
+  const double degrees = radians / degree;
+  return std::abs(degrees) < 1e3 ? std::round(degrees * 1e12) / 1e12 : degrees;
+}
 
 void refuse(const Setting& given, const Item& item, const std::string& allowed) {
   const std::string unit = item.unit.empty() ? "" : " (" + item.unit + ")";
   throw Error(given.place.describe() + ": " + item.path + " is " + given.brief() + "; it must be " + allowed + unit);
+}
+
+void refuse_key(const Setting& map, const std::string& path, const std::string& name, const std::string& text) {
+  const Setting* given = map.find(name);
+  throw Error((given != nullptr ? *given : map).place.describe() + ": " + join_path(path, name) + " " + text);
+}
+
+void refuse_vector(const Setting& map, const std::string& path, const std::string& name, const Vector3d& value,
+                   const std::string& allowed) {
+  refuse_key(map, path, name,
+             "is " + vector_setting(value).brief() + (map.find(name) == nullptr ? ", the default" : "") + "; it must be " + allowed);
+}
+
+std::vector<double> numbers_of(const Setting& setting, const Item& item, std::size_t least, std::size_t greatest,
+                               const std::string& demand) {
+  if (setting.kind != Setting::Kind::list || setting.items.size() < least || setting.items.size() > greatest) refuse(setting, item, demand);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < setting.items.size(); ++i) {
+    numbers.push_back(finite_number(setting.items[i], {join_path(item.path, i), item.unit}, "a number"));
+  }
+  return numbers;
+}
+
+Setting list_of_numbers(const std::vector<double>& numbers) {
+  std::vector<Setting> settings;
+  settings.reserve(numbers.size());
+  for (const double number : numbers) settings.push_back(number_setting(number));
+  return Setting::list(std::move(settings));
 }
 
 bool Range::contains(double value) const { return (above_least ? value > least : value >= least) && value <= greatest; }
@@ -142,21 +175,9 @@ Codec<double> number(Range range) {
           [](const double& value, const Context&) -> std::optional<Setting> { return number_setting(value); }};
 }
 
-Codec<std::optional<double>> number_or_auto(Range range) {
-  return {"number or auto", range.describe() + "; or auto",
-          [range](const Setting& setting, const Item& item, Context&) -> std::optional<double> {
-            if (setting.kind == Setting::Kind::scalar && setting.text == "auto") return std::nullopt;
-            double number = 0;
-            const std::string demand = number_demand(range, "a number") + ", or auto";
-            if (read_number(setting, number) == Reading::not_a_number) refuse(setting, item, demand);
-            number = finite_number(setting, item, demand);
-            if (!range.contains(number)) refuse(setting, item, range.describe() + ", or auto");
-            return number;
-          },
-          [](const std::optional<double>& value, const Context&) -> std::optional<Setting> {
-            return value ? number_setting(*value) : Setting::string("auto");
-          }};
-}
+Codec<std::optional<double>> number_or_auto(Range range) { return number_or("auto", range); }
+
+Codec<std::optional<double>> number_or_none(Range range) { return number_or("none", range); }
 
 Codec<std::optional<double>> number_if_given(Range range) {
   return {"number", range.describe(),
@@ -294,10 +315,7 @@ Codec<Vector3d> angles() {
             return Vector3d(Vector3d(numbers[0], numbers[1], numbers[2]) * degree);
           },
           [](const Vector3d& value, const Context&) -> std::optional<Setting> {
-            // Degrees to 12 digits after the point: 90 comes back as 90, not as 89.99999999999999.
-            const Vector3d degrees = value / degree;
-            return vector_setting(
-                degrees.unaryExpr([](double angle) { return std::abs(angle) < 1e3 ? std::round(angle * 1e12) / 1e12 : angle; }));
+            return vector_setting(value.unaryExpr([](double angle) { return in_degrees(angle); }));
           }};
 }
 

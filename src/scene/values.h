@@ -24,6 +24,10 @@ struct Context {
   int dimensions;  ///< 2 or 3; set by reading the key `dimensions`, which therefore comes before every position
 };
 
+inline constexpr double degree = 3.14159265358979323846 / 180.0;  ///< rad
+/// To 12 digits after the point: 90° comes back as 90, not as 89.99999999999999.
+double in_degrees(double radians);
+
 /// The key being read, for messages.
 struct Item {
   std::string path;
@@ -32,6 +36,13 @@ struct Item {
 
 /// Throws Error: "PLACE: PATH is GIVEN; it must be ALLOWED (UNIT)".
 [[noreturn]] void refuse(const Setting& given, const Item& item, const std::string& allowed);
+
+/// Throws Error about a key of a section, given or not: "PLACE: PATH/NAME TEXT".
+[[noreturn]] void refuse_key(const Setting& map, const std::string& path, const std::string& name, const std::string& text);
+
+/// Throws Error about a vector of a section, given or by default: "PLACE: PATH/NAME is VALUE; it must be ALLOWED".
+[[noreturn]] void refuse_vector(const Setting& map, const std::string& path, const std::string& name, const Vector3d& value,
+                                const std::string& allowed);
 
 template <class Value>
 struct Codec {
@@ -42,6 +53,11 @@ struct Codec {
   Holds holds = Holds::value;
   std::vector<KeyDescription> children = {};  ///< of a section or a list of sections
 };
+
+/// The numbers of a list, `least` to `greatest` of them; refuses everything else as not being `demand`.
+std::vector<double> numbers_of(const Setting& setting, const Item& item, std::size_t least, std::size_t greatest,
+                               const std::string& demand);
+Setting list_of_numbers(const std::vector<double>& numbers);
 
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
@@ -57,6 +73,7 @@ inline Range above_up_to(double least, double greatest) { return {least, greates
 
 Codec<double> number(Range range);
 Codec<std::optional<double>> number_or_auto(Range range);
+Codec<std::optional<double>> number_or_none(Range range);  ///< none is written as the word, for what has a default
 Codec<std::optional<double>> number_if_given(Range range);
 Codec<int> whole_number(Range range);
 Codec<std::optional<std::size_t>> count_if_given(Range range);

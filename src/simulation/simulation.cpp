@@ -4,14 +4,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <utility>
 
+#include "coupling.h"
 #include "snapshot.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/instruments/recorder.h"
+#include "wavetank/rigid/prescribed_motion.h"
 #include "wavetank/scene/case_reader.h"
 #include "wavetank/sph/solver.h"
 
@@ -26,17 +29,31 @@ std::string number(double value, const char* format = "%.6g") {
 
 std::string point(const Vector3d& p) { return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")"; }
 
-/// Where torques are taken about: the case's origin for the tank, the centre of volume for a body.
-std::vector<Vector3d> torque_centres(const Case& scene, const Layout& layout) {
-  std::vector<Vector3d> centres{Vector3d::Zero()};
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (const Box* box = std::get_if<Box>(&scene.bodies[b].shape))
-      centres.emplace_back(0.5 * (box->min + box->max));
-    else
-      centres.push_back(layout.meshes[1 + b].centre_of_volume());
-    if (scene.dimensions == 2) centres.back().y() = 0;
-  }
-  return centres;
+/// Where torques are taken about.
+std::vector<Vector3d> reference_points(const RigidWorld& world) {
+  std::vector<Vector3d> points;
+  for (std::size_t o = 0; o < world.count(); ++o) points.push_back(world.reference(o));
+  return points;
+}
+
+/// What the speed of sound must allow for beside the water's own fall: prescribed motions, and the fall of bodies, m/s.
+double fastest_wall(const Case& scene, const Layout& layout, const ResourceResolver& resolve) {
+  double fastest = 0;
+  const auto look_at = [&](Motion motion, const RigidCase& rigid, const TriangleMesh& mesh, const std::string& what) {
+    const Box box = mesh.bounding_box();
+    if (motion == Motion::prescribed)
+      fastest = std::max(fastest, PrescribedMotion(rigid.prescribed, rigid.prescribed.point.value_or(Vector3d::Zero()), scene.dimensions,
+                                                   scene.directory, resolve, what)
+                                      .greatest_speed(box, scene.duration));
+    if (motion != Motion::free) return;
+    const double fall = std::max(box.min.z() - layout.domain.min.z(), 0.0);
+    fastest = std::max(fastest, rigid.velocity.norm() + std::sqrt(2.0 * scene.gravity.norm() * fall));
+  };
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    look_at(scene.bodies[b].motion, scene.bodies[b].rigid, layout.meshes[b + 1], "body '" + scene.bodies[b].name + "'");
+  // a tank's own motion is not seen in its frame, but what the water makes of a standstill is
+  if (scene.tank.motion == Motion::prescribed) look_at(scene.tank.motion, scene.tank.rigid, layout.meshes[0], "tank");
+  return fastest;
 }
 
 /// Tells one geometry from another (FNV-1a): a case names its meshes, but does not hold them.
@@ -86,12 +103,17 @@ struct Simulation::Parts {
   Parts(const Case& checked, SimulationOptions given)
       : options(std::move(given)),
         layout(laid_out(checked)),
-        scene(settled(checked, layout)),
+        fastest(fastest_wall(checked, layout, options.resolve)),
+        scene(settled(checked, layout, fastest)),
         discretisation(discretise(scene, layout)),
+        world(scene, layout, options.resolve),
+        coupling(world, scene, layout, discretisation),
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
-        recorder(scene, layout, *solver) {
+        recorder(scene, layout, *solver, world) {
     tell_of_thin_walls(scene, discretisation, *solver);
+    solver->limit_time_step(coupling.longest_time_step());
+    initial_bodies = world.save();
   }
 
   Layout laid_out(const Case& checked) const {
@@ -103,7 +125,7 @@ struct Simulation::Parts {
 
   std::unique_ptr<Solver> prepared_solver() const {
     progress("compiling kernels", 0.0);
-    std::unique_ptr<Solver> result = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
+    std::unique_ptr<Solver> result = make_solver(device, scene, layout, discretisation, reference_points(world));
     progress("compiling kernels", 1.0);
     return result;
   }
@@ -113,16 +135,22 @@ struct Simulation::Parts {
   }
 
   void check(const StepReport& report) const;
+  /// Bodies and what the fluid has been told of them, as bytes; and back.
+  std::vector<char> saved_bodies() const;
+  void restore_bodies(const std::vector<char>& bytes);
 
   SimulationOptions options;
   Layout layout;
+  double fastest;  ///< m/s, expected of walls
   Case scene;
   Discretisation discretisation;
+  RigidWorld world;
+  Coupling coupling;
   compute::Device device;
   std::unique_ptr<Solver> solver;
   Recorder recorder;
   PackingReport packing;
-  std::vector<char> initial_fluid;
+  std::vector<char> initial_fluid, initial_bodies;
   double initial_time_step = 0;
   double time = 0;
   double time_step = 0;
@@ -130,6 +158,26 @@ struct Simulation::Parts {
   std::uint64_t guard_hits = 0;
   StepReport report;
 };
+
+std::vector<char> Simulation::Parts::saved_bodies() const {
+  const std::vector<double> felt = coupling.save();
+  std::vector<char> bytes(felt.size() * sizeof(double));
+  std::memcpy(bytes.data(), felt.data(), bytes.size());
+  const std::vector<char> rest = world.save();
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return bytes;
+}
+
+void Simulation::Parts::restore_bodies(const std::vector<char>& bytes) {
+  std::vector<double> felt(coupling.save().size());
+  const std::size_t size = felt.size() * sizeof(double);
+  if (bytes.size() < size) throw Error("the snapshot's bodies are not those of this case.");
+  std::memcpy(felt.data(), bytes.data(), size);
+  world.restore({bytes.begin() + static_cast<std::ptrdiff_t>(size), bytes.end()});
+  coupling.restore(felt);
+  coupling.set_time(time);
+  if (world.anything_moves()) solver->set_wall_motions(coupling.now());
+}
 
 /// Throws Violation for a step that the simulation may not go on from.
 void Simulation::Parts::check(const StepReport& r) const {
@@ -162,7 +210,9 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
     throw Violation(std::string("before the start (numerics/packing/settling is ") + number(parts.scene.numerics.packing.settling) +
                     "): " + violation.what());
   }
+  if (parts.world.anything_moves()) parts.solver->set_wall_motions(parts.coupling.now());
   parts.initial_fluid = parts.solver->save();
+  parts.initial_bodies = parts.saved_bodies();
   parts.initial_time_step = parts.report.time_step;
   parts.time_step = parts.initial_time_step;
   parts.recorder.start(*parts.solver);
@@ -174,7 +224,8 @@ void Simulation::advance() {
   Parts& parts = *parts_;
   const double next_time = parts.time + parts.time_step;
   parts.recorder.before_step(*parts.solver, parts.time, next_time);
-  parts.report = parts.solver->advance();
+  parts.coupling.set_time(parts.time);
+  parts.report = parts.solver->advance(parts.world.anything_moves() ? &parts.coupling : nullptr);
   const double time = std::exchange(parts.time, next_time);
   ++parts.step;
   parts.guard_hits += static_cast<std::uint64_t>(parts.report.guard_hits);
@@ -187,6 +238,7 @@ void Simulation::reset() {
   Parts& parts = *parts_;
   parts.solver->restore(parts.initial_fluid);
   parts.time = 0;
+  parts.restore_bodies(parts.initial_bodies);
   parts.time_step = parts.initial_time_step;
   parts.step = 0;
   parts.guard_hits = 0;
@@ -207,6 +259,7 @@ void Simulation::save(const std::string& path) const {
   snapshot.step = parts.step;
   snapshot.guard_hits = parts.guard_hits;
   snapshot.clocks = parts.recorder.clock_indices();
+  snapshot.bodies = parts.saved_bodies();
   snapshot.fluid = parts.solver->save();
   write_snapshot(path, snapshot);
 }
@@ -225,6 +278,7 @@ void Simulation::restore(const std::string& path) {
   if (snapshot.device != device_description())
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;
+  parts.restore_bodies(snapshot.bodies);
   parts.time_step = snapshot.time_step;
   parts.step = snapshot.step;
   parts.guard_hits = snapshot.guard_hits;
@@ -232,6 +286,14 @@ void Simulation::restore(const std::string& path) {
   parts.report.time_step = snapshot.time_step;
   parts.recorder.set_clock_indices(snapshot.clocks);
 }
+
+void Simulation::set_outside_wrench(std::size_t owner, const OutsideWrench& wrench) { parts_->world.set_outside_wrench(owner, wrench); }
+
+void Simulation::command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity) {
+  parts_->world.command(owner, parts_->time, velocity, angular_velocity);
+}
+
+const RigidWorld& Simulation::bodies() const { return parts_->world; }
 
 Samples Simulation::take_samples() { return parts_->recorder.take(); }
 
@@ -299,8 +361,8 @@ std::string Simulation::summary() const {
   line("particles", std::to_string(count) + ", spacing " + number(d.spacing) + " m, smoothing length " + number(d.smoothing_length) +
                         " m, support " + number(d.support / d.spacing) + " spacings");
   line("wall elements", std::to_string(walls_in_use(parts.scene, parts.layout)));
-  line("sound speed",
-       number(d.sound_speed) + " m/s, expected Mach number " + number(expected_speed(parts.scene, parts.layout) / d.sound_speed, "%.3f"));
+  line("sound speed", number(d.sound_speed) + " m/s, expected Mach number " +
+                          number(std::max(expected_speed(parts.scene, parts.layout), parts.fastest) / d.sound_speed, "%.3f"));
   line("bounds on the time step", "acoustic " + number(d.acoustic_time) + " s at rest, viscous " + number(d.viscous_time) + " s");
   line("packing", std::to_string(parts.packing.iterations) + " iterations, h|E| from " + number(parts.packing.first_error, "%.3g") +
                       " to " + number(parts.packing.last_error, "%.3g"));
@@ -319,16 +381,20 @@ std::vector<KernelTime> Simulation::kernel_times() const {
 
 Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const Layout layout = lay_out(checked, options.resolve);
-  const Case scene = settled(checked, layout);
+  const Case scene = settled(checked, layout, fastest_wall(checked, layout, options.resolve));
   const Discretisation discretisation = discretise(scene, layout);
+  RigidWorld world(scene, layout, options.resolve);
+  Coupling coupling(world, scene, layout, discretisation);
+  WallMover* const mover = world.anything_moves() ? &coupling : nullptr;
   const compute::Device device(compute::choose_device(scene.device));
-  const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, torque_centres(scene, layout));
+  const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, reference_points(world));
+  solver->limit_time_step(coupling.longest_time_step());
   tell_of_thin_walls(scene, discretisation, *solver);
   solver->start();
-  solver->advance();  // the first launch of a kernel may still compile it
+  solver->advance(mover);  // the first launch of a kernel may still compile it
   constexpr int measured_steps = 3;
   const auto begin = std::chrono::steady_clock::now();
-  for (int k = 0; k < measured_steps; ++k) solver->advance();
+  for (int k = 0; k < measured_steps; ++k) solver->advance(mover);
   const double step_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / measured_steps;
 
   Estimate result;
@@ -336,7 +402,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   result.wall_elements = walls_in_use(scene, layout);
   result.lid_elements = layout.lid.size();
   result.device_memory = static_cast<double>(solver->device_memory());
-  result.time_step = std::min(discretisation.acoustic_time, discretisation.viscous_time);
+  result.time_step = std::min({discretisation.acoustic_time, discretisation.viscous_time, coupling.longest_time_step()});
   const double steps = (scene.duration + scene.numerics.packing.settling * discretisation.sound_period) / result.time_step;
   result.wall_seconds = (steps + 0.5 * scene.numerics.packing.iterations) * step_seconds;
   return result;

@@ -15,14 +15,15 @@ double expected_speed(const Case& checked, const Layout& layout) {
   return std::sqrt(2.0 * checked.gravity.norm() * drop);
 }
 
-Case settled(const Case& checked, const Layout& layout) {
+Case settled(const Case& checked, const Layout& layout, double fastest_wall) {
   Case result = checked;
   result.fluid.spacing = layout.spacing;
   result.fluid.particles.reset();
   if (!result.numerics.support) result.numerics.support = checked.dimensions == 2 ? 4.0 : 3.0;
   if (!result.fluid.sound_speed) {
-    const double speed = expected_speed(checked, layout);
-    if (!(speed > 0.0)) throw Error("fluid/sound_speed is auto, but without gravity there is no expected speed: give it in m/s.");
+    const double speed = std::max(expected_speed(checked, layout), fastest_wall);
+    if (!(speed > 0.0))
+      throw Error("fluid/sound_speed is auto, but without gravity and moving walls there is no expected speed: give it in m/s.");
     result.fluid.sound_speed = 10.0 * speed;
   }
   return result;

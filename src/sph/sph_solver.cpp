@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "tank_images.h"
@@ -23,7 +24,7 @@ WallKind kind_of(const WallCase& walls) {
   return walls.elements == WallElements::semi_analytical ? WallKind::triangles : WallKind::rectangles;
 }
 
-std::string build_options(const Case& scene, bool use_double, bool images, bool moving, bool thin) {
+std::string build_options(const Case& scene, bool use_double, bool images, bool moving, bool moving_frame, bool thin) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
   std::ostringstream options;
@@ -35,7 +36,7 @@ std::string build_options(const Case& scene, bool use_double, bool images, bool 
           << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped)
           << " -DFACETS=" << (kind_of(n.walls) == WallKind::facets) << " -DTRIANGLES=" << (kind_of(n.walls) == WallKind::triangles)
           << " -DGHOSTS=" << (n.walls.method == WallMethod::ghost) << " -DIMAGES=" << images << " -DMOVING_WALLS=" << moving
-          << " -DTHIN_WALLS=" << thin
+          << " -DMOVING_FRAME=" << moving_frame << " -DTHIN_WALLS=" << thin
           << " -DSHEPARD_GEOMETRIC=" << (shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_MONOLITHIC=" << (shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_VOLUMETRIC=" << (shepard == ShepardFactor::volumetric)
@@ -108,11 +109,11 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       thin_(find_thin_parts(layout, scene.dimensions, discretisation.support)),
       closed_(walls_and_lid(layout)),
       walls_(make_walls(true, {})),
-      motions_(device, centres.size() * field::motion_count),
+      motions_(device, field::frame_count + centres.size() * field::motion_count),
       motion_centres_(device, 3 * centres.size()),
       loads_(device, kind_ == WallKind::facets ? 1 : walls_.stride),
-      wrench_parts_(device, static_cast<std::size_t>(chunks_) * field::wrench_count),
-      wrench_(device, field::wrench_count),
+      wrench_totals_(device, centres.size() * field::wrench_count),
+      regions_(device, centres.size() * field::region_count),
       time_step_(device, 3),
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
@@ -123,23 +124,69 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   centres_ = centres;
   ghosts_ = scene.numerics.walls.method == WallMethod::ghost;
   elements_ = kind_ != WallKind::facets;
-  std::vector<Facet> barriers;
   for (std::size_t f = 0; f < layout.facets.size(); ++f)
-    if (thin_.facets[f]) barriers.push_back(layout.facets[f]);
-  barriers_ = Barriers<Real>(device, barriers, thin_.brims, discretisation_);
+    if (thin_.facets[f]) thin_facets_.push_back(layout.facets[f]);
+  barriers_ = Barriers<Real>(device, thin_facets_, thin_.brims, discretisation_);
   const std::vector<TankImage> images = tank_images(case_, layout, discretisation_);
   images_ = Buffer(device, image_values<Real>(images));
   values_ = kernel_parameters<Real>(case_, layout, discretisation_, static_cast<int>(images.size()));
   upload_parameters(values_);
-  options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), false, thin_.thinnest.has_value());
+  moving_ = layout.moving;
+  moving_.resize(centres.size(), false);
+  moving_frame_ = scene.tank.motion != Motion::fixed;
+  const bool moving = moving_frame_ || std::find(moving_.begin(), moving_.end(), true) != moving_.end();
+  if (ghosts_ && moving)
+    throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
+  options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), moving, moving_frame_, thin_.thinnest.has_value());
+  find_boxes(layout);
+  if (std::find(moving_.begin(), moving_.end(), true) != moving_.end())
+    moving_walls_.emplace(device, sources_, options_, walls_, moving_, discretisation_);
   grid_ = ParticleGrid(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_);
   build_kernels();
-  std::vector<WallMotion> motions(centres.size());
-  for (std::size_t b = 0; b < scene.bodies.size() && b + 1 < motions.size(); ++b)
-    motions[b + 1].surface_velocity = scene.bodies[b].surface_velocity;
+  WallMotions motions;
+  motions.owners.resize(centres.size());
+  for (std::size_t b = 0; b < scene.bodies.size() && b + 1 < motions.owners.size(); ++b)
+    motions.owners[b + 1].surface_velocity = scene.bodies[b].surface_velocity;
+  if (moving_frame_) motions.frame = FrameMotion{scene.gravity};
   set_wall_motions(motions);
   upload_particles(layout);
   stages_ = symplectic();
+}
+
+template <class Real>
+void SphSolver<Real>::find_boxes(const Layout& layout) {
+  boxes_.assign(centres_.size(), Box{centres_[0], centres_[0]});
+  std::vector<bool> found(centres_.size(), false);
+  for (const Facet& facet : layout.facets) {
+    Box& box = boxes_.at(facet.owner);
+    for (const Eigen::Vector3d& corner : facet.corners) {
+      box.min = found[facet.owner] ? Eigen::Vector3d(box.min.cwiseMin(corner)) : corner;
+      box.max = found[facet.owner] ? Eigen::Vector3d(box.max.cwiseMax(corner)) : corner;
+      found[facet.owner] = true;
+    }
+  }
+}
+
+/// Thin plates that move, which are few: made anew.
+template <class Real>
+void SphSolver<Real>::place_barriers() {
+  const auto moves_with = [this](const Facet& facet) { return static_cast<bool>(moving_[facet.owner]); };
+  if (std::none_of(thin_facets_.begin(), thin_facets_.end(), moves_with)) return;
+  std::vector<Facet> facets = thin_facets_;
+  for (Facet& facet : facets) {
+    const WallPose& pose = poses_[facet.owner];
+    for (Eigen::Vector3d& corner : facet.corners) corner = pose.of(corner);
+    facet.normal = pose.rotation * facet.normal;
+    facet.plane_point = pose.of(facet.plane_point);
+  }
+  std::vector<Brim> brims = thin_.brims;
+  for (Brim& brim : brims) {
+    const WallPose& pose = poses_[brim.owner];
+    brim.from = pose.of(brim.from);
+    brim.to = pose.of(brim.to);
+    for (Eigen::Vector3d* vector : {&brim.face_normal, &brim.inwards, &brim.other_normal}) *vector = pose.rotation * *vector;
+  }
+  barriers_ = Barriers<Real>(device_, facets, brims, discretisation_);
 }
 
 template <class Real>
@@ -180,27 +227,42 @@ WallArrays<Real> SphSolver<Real>::make_supported_walls() const {
 }
 
 template <class Real>
-void SphSolver<Real>::set_wall_motions(const std::vector<WallMotion>& motions) {
-  std::vector<Real> values;
+void SphSolver<Real>::set_wall_motions(const WallMotions& motions) {
+  place_walls(motions);
   bool moving = false;
+  for (const WallMotion& motion : motions.owners) moving = moving || moves(motion);
+  if (!moving || options_.find("-DMOVING_WALLS=0") == std::string::npos) return;
+  if (ghosts_) throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
+  options_.replace(options_.find("-DMOVING_WALLS=0"), std::strlen("-DMOVING_WALLS=0"), "-DMOVING_WALLS=1");
+  build_kernels();
+}
+
+template <class Real>
+void SphSolver<Real>::place_walls(const WallMotions& motions) {
+  std::vector<Real> values, centres;
+  const auto add = [](std::vector<Real>& to, const Eigen::Vector3d& vector) {
+    for (int axis = 0; axis < 3; ++axis) to.push_back(static_cast<Real>(vector[axis]));
+  };
+  const FrameMotion frame = motions.frame.value_or(FrameMotion{case_.gravity});
+  for (const Eigen::Vector3d& vector :
+       {frame.gravity, frame.angular_velocity, frame.angular_acceleration, Eigen::Vector3d(frame.origin - discretisation_.origin)})
+    add(values, vector);
+  poses_.assign(centres_.size(), WallPose());
   for (std::size_t o = 0; o < centres_.size(); ++o) {
-    const WallMotion& motion = motions.at(o);
-    moving = moving || moves(motion);
-    if (ghosts_ && moving)
-      throw Error("numerics/walls/method is ghost, whose mirror images stand still: a tank that moves needs boundary_integral.");
-    for (const Eigen::Vector3d& vector : {Eigen::Vector3d(centres_[o] - discretisation_.origin), motion.velocity, motion.angular_velocity,
-                                          motion.acceleration, motion.angular_acceleration, motion.surface_velocity})
-      for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(vector[axis]));
+    const WallMotion& motion = motions.owners.at(o);
+    poses_[o] = {centres_[o], centres_[o] + motion.displacement, motion.orientation.toRotationMatrix()};
+    add(centres, poses_[o].place - discretisation_.origin);
+    for (const Eigen::Vector3d& vector :
+         {Eigen::Vector3d(poses_[o].place - discretisation_.origin), motion.velocity, motion.angular_velocity, motion.acceleration,
+          motion.angular_acceleration, motion.surface_velocity})
+      add(values, vector);
   }
   motions_.upload(values);
-  std::vector<Real> centres;
-  for (std::size_t o = 0; o < centres_.size(); ++o)
-    for (int axis = 0; axis < 3; ++axis) centres.push_back(values[o * field::motion_count + axis]);
   motion_centres_.upload(centres);
-  if (moving && options_.find("-DMOVING_WALLS=0") != std::string::npos) {  // the first motion
-    options_.replace(options_.find("-DMOVING_WALLS=0"), std::strlen("-DMOVING_WALLS=0"), "-DMOVING_WALLS=1");
-    build_kernels();
-  }
+  region_owners_.clear();
+  if (!moving_walls_) return;
+  moving_walls_->place(walls_, poses_);
+  place_barriers();
 }
 
 template <class Real>
@@ -230,9 +292,8 @@ void SphSolver<Real>::build_kernels() {
   watch_total_ = reduce.kernel("watch_total");
   energy_chunks_ = reduce.kernel("energy_chunks");
   energy_sum_ = reduce.kernel("energy_total");
+  wrench_sums_ = reduce.kernel("wrench_totals");
   packing_total_ = reduce.kernel("packing_total");
-  wrench_chunks_ = reduce.kernel("wrench_chunks");
-  wrench_total_ = reduce.kernel("wrench_total");
 }
 
 template <class Real>
@@ -292,8 +353,16 @@ template <class Real>
 std::vector<Stage> SphSolver<Real>::symplectic() {
   return {
       {"drift to the middle", [this] { predict_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }},
+      {"walls to the middle",
+       [this] {
+         if (mover_ != nullptr) place_walls(mover_->to_middle(step_));
+       }},
       {"wall pressures", [this] { load_walls(half_); }},
       {"accelerations", [this] { find_accelerations(half_); }},
+      {"walls to the end",
+       [this] {
+         if (mover_ != nullptr) place_walls(mover_->to_end(step_, wrenches_at(half_, mover_->coupled())));
+       }},
       {"kick, and drift to the end", [this] { correct_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }},
       {"guard", [this] { guard(); }},
       {"neighbour grid", [this] { sort(); }},
@@ -303,8 +372,16 @@ std::vector<Stage> SphSolver<Real>::symplectic() {
 }
 
 template <class Real>
-StepReport SphSolver<Real>::advance() {
-  for (const Stage& stage : stages_) stage.run();
+StepReport SphSolver<Real>::advance(WallMover* mover) {
+  mover_ = mover;
+  if (mover != nullptr) step_ = time_step_.download()[0];
+  try {
+    for (const Stage& stage : stages_) stage.run();
+  } catch (...) {
+    mover_ = nullptr;
+    throw;
+  }
+  mover_ = nullptr;
   return watch();
 }
 
@@ -312,7 +389,11 @@ template <class Real>
 StepReport SphSolver<Real>::watch() {
   watch_chunks_.launch(chunks_, parameters_, count_, state_, rates_, stride_, guard_hits_, watches_, alarms_);
   watch_total_.launch(1, parameters_, chunks_, watches_, alarms_, time_step_, alarm_);
-  const std::vector<Real> step = time_step_.download();
+  std::vector<Real> step = time_step_.download();
+  if (step[0] > static_cast<Real>(time_step_limit_)) {
+    step[0] = static_cast<Real>(time_step_limit_);
+    time_step_.upload(step);
+  }
   const std::vector<int> alarm = alarm_.download();
   StepReport report;
   report.time_step = step[0];
@@ -385,8 +466,9 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
   damped.gravity_x = damped.gravity_y = damped.hydrostatic_x = damped.hydrostatic_y = Real(0);
   const std::vector<Real> moving = motions_.download();
   std::vector<Real> still = moving;
-  for (std::size_t k = 0; k < still.size(); ++k)
-    if (k % field::motion_count >= 3) still[k] = Real(0);
+  for (int k = 0; k < 9; ++k) still[k] = k == 2 ? damped.gravity_z : Real(0);  // of the frame
+  for (std::size_t k = field::frame_count; k < still.size(); ++k)
+    if ((k - field::frame_count) % field::motion_count >= 3) still[k] = Real(0);
   upload_parameters(damped);
   motions_.upload(still);
   std::swap(walls_, supported);
@@ -403,7 +485,7 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
     report = start_at_rest();
     for (double time = 0; time < duration && may_go_on();) {
       time += report.time_step;
-      report = advance();
+      report = advance(nullptr);
       if (progress) progress(std::min(time / duration, 1.0));
     }
   } catch (...) {
@@ -464,17 +546,63 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
 
 template <class Real>
 std::vector<WallWrench> SphSolver<Real>::wrenches() {
-  std::vector<WallWrench> result(centres_.size());
   load_walls(state_);  // at this instant; the step found its own in its middle
-  for (std::size_t owner = 0; owner < centres_.size(); ++owner) {
-    // the spare state is free between two sortings
-    sweep(forces_kernel_, count_, state_, walls_, loads_, static_cast<int>(owner), motion_centres_, spare_);
-    wrench_chunks_.launch(chunks_, count_, spare_, stride_, wrench_parts_);
-    wrench_total_.launch(1, chunks_, wrench_parts_, wrench_);
-    const std::vector<Real> total = wrench_.download();
-    for (int part = 0; part < 4; ++part)
-      for (int axis = 0; axis < 3; ++axis) result[owner][part][axis] = total[3 * part + axis];
+  std::vector<int> owners(centres_.size());
+  std::iota(owners.begin(), owners.end(), 0);
+  return wrenches_at(state_, owners);
+}
+
+/// The cells in which particles may touch each owner's walls where they are now, as common.cl has regions.
+template <class Real>
+void SphSolver<Real>::find_regions(const std::vector<int>& owners) {
+  std::vector<int> values;
+  region_items_ = 0;
+  const Discretisation& d = discretisation_;
+  const double margin = d.support + 0.25 * d.spacing;  // particles have moved by less since they were sorted
+  for (const int owner : owners) {
+    int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    Box now{Eigen::Vector3d::Constant(std::numeric_limits<double>::max()),
+            Eigen::Vector3d::Constant(std::numeric_limits<double>::lowest())};
+    for (int k = 0; k < 8; ++k) {
+      const Box& box = boxes_[owner];
+      const Eigen::Vector3d corner =
+          poses_[owner].of({k & 1 ? box.max.x() : box.min.x(), k & 2 ? box.max.y() : box.min.y(), k & 4 ? box.max.z() : box.min.z()});
+      now.min = now.min.cwiseMin(corner);
+      now.max = now.max.cwiseMax(corner);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (d.cells[axis] == 1) continue;
+      const auto at = [&](double place) {
+        const double cell = std::floor((place - d.origin[axis]) / d.support) + 1;
+        return static_cast<int>(std::clamp(cell, 1.0, d.cells[axis] - 2.0));
+      };
+      // images and ghosts bring an owner's walls to particles far from it
+      const bool everywhere = images_.size() > 1;
+      low[axis] = everywhere ? 1 : at(now.min[axis] - margin);
+      high[axis] = everywhere ? d.cells[axis] - 2 : at(now.max[axis] + margin);
+    }
+    const int runs = (high[0] - low[0]) / field::region_run + 1, rows = high[1] - low[1] + 1;
+    for (const int value : {owner, region_items_, low[0], low[1], low[2], high[0] + 1, runs, rows}) values.push_back(value);
+    region_items_ += runs * rows * (high[2] - low[2] + 1);
   }
+  regions_.upload(values);
+  const std::size_t parts = static_cast<std::size_t>(region_items_) * field::wrench_count;
+  if (wrench_parts_.size() < parts) wrench_parts_ = Buffer(device_, 2 * parts);
+  region_owners_ = owners;
+}
+
+template <class Real>
+std::vector<WallWrench> SphSolver<Real>::wrenches_at(const Buffer& state, const std::vector<int>& owners) {
+  if (owners.empty()) return {};
+  if (region_owners_ != owners) find_regions(owners);
+  const int regions = static_cast<int>(owners.size());
+  sweep(forces_kernel_, region_items_, state, walls_, loads_, regions, regions_, motion_centres_, wrench_parts_);
+  wrench_sums_.launch(regions, regions, region_items_, regions_, wrench_parts_, wrench_totals_);
+  const std::vector<Real> totals = wrench_totals_.download();
+  std::vector<WallWrench> result(owners.size());
+  for (std::size_t k = 0; k < owners.size(); ++k)
+    for (int part = 0; part < 4; ++part)
+      for (int axis = 0; axis < 3; ++axis) result[k][part][axis] = totals[k * field::wrench_count + 3 * part + axis];
   return result;
 }
 
@@ -525,6 +653,8 @@ std::vector<char> SphSolver<Real>::save() const {
   append(state.data(), state.size() * sizeof(Real));
   append(&rates[static_cast<std::size_t>(field::rate_compression) * stride_], stride_ * sizeof(Real));  // the next drift begins with these
   append(step.data(), step.size() * sizeof(Real));
+  const std::vector<double> listed = moving_walls_ ? moving_walls_->listed() : std::vector<double>();
+  append(listed.data(), listed.size() * sizeof(double));
   append(id.data(), id.size() * sizeof(std::uint32_t));
   return bytes;
 }
@@ -533,7 +663,9 @@ template <class Real>
 void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   std::vector<Real> state(state_.size()), rates(rates_.size(), Real(0)), step(time_step_.size());
   std::vector<std::uint32_t> id(count_);
-  const std::size_t expected = (state.size() + stride_ + step.size()) * sizeof(Real) + id.size() * sizeof(std::uint32_t);
+  std::vector<double> listed = moving_walls_ ? moving_walls_->listed() : std::vector<double>();
+  const std::size_t expected =
+      (state.size() + stride_ + step.size()) * sizeof(Real) + id.size() * sizeof(std::uint32_t) + listed.size() * sizeof(double);
   if (bytes.size() != expected)
     throw Error("the snapshot's fluid has " + std::to_string(bytes.size()) + " bytes, but this case's has " + std::to_string(expected) +
                 ".");
@@ -545,7 +677,9 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   take(state.data(), state.size() * sizeof(Real));
   take(&rates[static_cast<std::size_t>(field::rate_compression) * stride_], stride_ * sizeof(Real));
   take(step.data(), step.size() * sizeof(Real));
+  take(listed.data(), listed.size() * sizeof(double));
   take(id.data(), id.size() * sizeof(std::uint32_t));
+  if (moving_walls_) moving_walls_->list_for(walls_, listed);
   state_.upload(state);
   rates_.upload(rates);
   time_step_.upload(step);

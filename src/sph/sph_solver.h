@@ -1,6 +1,9 @@
 #pragma once
 
+#include <limits>
+
 #include "kernel_parameters.h"
+#include "moving_walls.h"
 #include "particle_grid.h"
 #include "wall_arrays.h"
 #include "wavetank/compute/program.h"
@@ -24,8 +27,9 @@ class SphSolver final : public Solver {
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override;
   StepReport start() override;
   StepReport settle(double periods, const std::function<void(double)>& progress) override;
-  StepReport advance() override;
-  void set_wall_motions(const std::vector<WallMotion>& motions) override;
+  StepReport advance(WallMover* mover) override;
+  void set_wall_motions(const WallMotions& motions) override;
+  void limit_time_step(double limit) override { time_step_limit_ = limit; }
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
   std::optional<ThinWall> thinnest_wall() const override { return thin_.thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
@@ -57,6 +61,11 @@ class SphSolver final : public Solver {
   void upload_particles(const Layout& layout);
   std::vector<Stage> symplectic();
   void sort();
+  void find_boxes(const Layout& layout);
+  void place_walls(const WallMotions& motions);
+  void place_barriers();
+  std::vector<WallWrench> wrenches_at(const Buffer& state, const std::vector<int>& owners);
+  void find_regions(const std::vector<int>& owners);
   void load_walls(const Buffer& state);
   void find_accelerations(const Buffer& state);
   void find_compression_rates();
@@ -73,7 +82,13 @@ class SphSolver final : public Solver {
   compute::SourceFiles sources_;
   KernelParameters<Real> values_;
   compute::Buffer<char> parameters_;
-  std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners
+  std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners, as the layout has them
+  std::vector<Box> boxes_;                ///< about the walls of each owner, likewise
+  std::vector<bool> moving_;              ///< owners
+  bool moving_frame_ = false;
+  WallMover* mover_ = nullptr;  ///< during a step
+  double time_step_limit_ = std::numeric_limits<double>::infinity();
+  double step_ = 0;  ///< of the step in progress, s
   bool ghosts_ = false;
   bool elements_ = false;       ///< the walls are elements, with a pressure of their own
   std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
@@ -82,19 +97,25 @@ class SphSolver final : public Solver {
   ParticleGrid grid_;
   WallKind kind_;
   ThinParts thin_;
+  std::vector<Facet> thin_facets_;
   Layout closed_;  ///< the walls and the lid alone
   WallArrays<Real> walls_;
+  std::optional<MovingWalls<Real>> moving_walls_;  ///< where there are any
+  std::vector<WallPose> poses_;
   Barriers<Real> barriers_;
   Buffer motions_, motion_centres_, images_;
   Buffer loads_;
-  Buffer wrench_parts_, wrench_;
+  Buffer wrench_parts_, wrench_totals_;
+  compute::Buffer<int> regions_;
+  std::vector<int> region_owners_;  ///< that the regions were found for, at the present poses; empty: for none
+  int region_items_ = 0;
   Buffer time_step_, watches_, energy_parts_, energy_total_;
   compute::Buffer<int> guard_hits_, alarms_, alarm_;
   compute::Kernel continuity_kernel_, momentum_kernel_, gradient_kernel_, loads_kernel_, packing_kernel_, points_kernel_, surface_kernel_,
       guard_kernel_, forces_kernel_;
   compute::Kernel derive_, predict_, correct_, compress_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_,
       packing_total_;
-  compute::Kernel wrench_chunks_, wrench_total_;
+  compute::Kernel wrench_sums_;
   std::vector<Stage> stages_;
 };
 

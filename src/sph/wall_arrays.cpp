@@ -5,41 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "wall_cells.h"
 
 namespace wavetank {
 namespace {
-
-/// As cell_index in cells.cl.
-int cell_of(const Eigen::Vector3d& relative, const Discretisation& d) {
-  int cell[3] = {0, 0, 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (d.cells[axis] == 1) continue;
-    cell[axis] = std::clamp(static_cast<int>(relative[axis] / d.support) + 1, 1, d.cells[axis] - 2);
-  }
-  return (cell[2] * d.cells[1] + cell[1]) * d.cells[0] + cell[0];
-}
-
-/// Elements in the order of their cells, and where each cell's begin.
-struct CellOrder {
-  std::vector<int> order, begin;
-};
-
-CellOrder sorted_by_cell(const std::vector<Vector3d>& centres, const Discretisation& d) {
-  const int cells = d.cells[0] * d.cells[1] * d.cells[2];
-  CellOrder result;
-  std::vector<int> cell(centres.size());
-  result.order.resize(centres.size());
-  result.begin.assign(static_cast<std::size_t>(cells) + 1, 0);
-  for (std::size_t s = 0; s < centres.size(); ++s) {
-    cell[s] = cell_of(centres[s] - d.origin, d);
-    ++result.begin[cell[s] + 1];
-  }
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  std::iota(result.order.begin(), result.order.end(), 0);
-  std::stable_sort(result.order.begin(), result.order.end(), [&](int a, int b) { return cell[a] < cell[b]; });
-  return result;
-}
 
 /// The fields of walls, filled one wall after the other.
 template <class Real>
@@ -65,53 +35,6 @@ class Fields {
   const Discretisation& d_;
   std::vector<Real> values_;
 };
-
-Vector3d middle_of(const Facet& facet, int dimensions) {
-  if (dimensions == 2) return 0.5 * (facet.corners[0] + facet.corners[1]);
-  return (facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3.0;
-}
-
-/// Which facets each cell's particles may touch: those nearer than the support to any point of the cell. As starts and list.
-CellOrder facets_by_cell(const std::vector<Facet>& facets, const Discretisation& d) {
-  const int cells = d.cells[0] * d.cells[1] * d.cells[2];
-  const double half_diagonal = 0.5 * d.support * std::sqrt(static_cast<double>(d.dimensions));
-  // particles drift by less than this between the sorting and the sweep that reads their cell
-  const double reach = 1.02 * d.support + half_diagonal;
-  std::vector<std::pair<int, int>> pairs;  // cell, facet
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (d.cells[axis] == 1) continue;
-      double least = facets[f].corners[0][axis], most = least;
-      for (const Vector3d& corner : facets[f].corners) {
-        least = std::min(least, corner[axis]);
-        most = std::max(most, corner[axis]);
-      }
-      const auto at = [&](double place) {
-        return std::clamp(static_cast<int>(std::floor((place - d.origin[axis]) / d.support)) + 1, 0, d.cells[axis] - 1);
-      };
-      low[axis] = at(least - 1.02 * d.support);
-      high[axis] = at(most + 1.02 * d.support);
-    }
-    for (int cz = low[2]; cz <= high[2]; ++cz)
-      for (int cy = low[1]; cy <= high[1]; ++cy)
-        for (int cx = low[0]; cx <= high[0]; ++cx) {
-          Vector3d centre = d.origin + d.support * Vector3d(cx - 0.5, cy - 0.5, cz - 0.5);
-          if (d.dimensions == 2) centre.y() = facets[f].corners[0].y();
-          const Vector3d nearest = nearest_on_triangle(centre, facets[f].corners[0], facets[f].corners[1], facets[f].corners[2]);
-          if ((nearest - centre).norm() <= reach) pairs.emplace_back((cz * d.cells[1] + cy) * d.cells[0] + cx, static_cast<int>(f));
-        }
-  }
-  std::stable_sort(pairs.begin(), pairs.end());
-  CellOrder result;
-  result.begin.assign(static_cast<std::size_t>(cells) + 1, 0);
-  for (const auto& [cell, facet] : pairs) {
-    ++result.begin[cell + 1];
-    result.order.push_back(facet);
-  }
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  return result;
-}
 
 /// Corners in the order in which they turn left about the normal.
 Facet turned_left(Facet facet, int dimensions) {
@@ -193,7 +116,7 @@ void set_edges(const Facet& facet, int s, int dimensions, const InnerEdges& inne
 template <class Real>
 WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const std::vector<bool>& thin,
                              const Discretisation& d)
-    : count(static_cast<int>(elements.size())), stride(std::max(count, 1)), list(device, 1) {
+    : kind(WallKind::rectangles), count(static_cast<int>(elements.size())), stride(std::max(count, 1)), list(device, 1) {
   std::vector<Vector3d> centres;
   for (const WallElement& element : elements) centres.push_back(element.centre);
   const CellOrder cells = sorted_by_cell(centres, d);
@@ -213,12 +136,18 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   }
   fields = compute::Buffer<Real>(device, values.values());
   starts = compute::Buffer<int>(device, cells.begin);
+  for (int s = 0; s < count; ++s) {
+    Facet place;
+    for (Vector3d& corner : place.corners) corner = elements[cells.order[s]].centre;
+    place.owner = elements[cells.order[s]].owner;
+    shapes.push_back(place);
+  }
 }
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind given,
                              const Discretisation& d)
-    : count(static_cast<int>(facets.size())), list(device, 1) {
+    : kind(given), count(static_cast<int>(facets.size())), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
   const int field_count = whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count);
@@ -231,6 +160,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
   for (int s = 0; s < count; ++s) {
     const int source = whole ? s : cells.order[s];
     const Facet facet = turned_left(facets[source], d.dimensions);
+    shapes.push_back(facet);
     values.set_vector(field::normal_x, s, facet.normal);
     values.set(field::wall_owner, s, facet.owner);
     values.set(field::wall_thin, s, is_thin(thin, source) ? 1.0 : 0.0);

@@ -13,7 +13,7 @@ namespace wavetank {
 /// which each cell has a list.
 enum class WallKind { rectangles, triangles, facets };
 
-/// Walls on the device. Walls that stand still are sorted once.
+/// Walls on the device, as the case's geometry has them.
 template <class Real>
 struct WallArrays {
   WallArrays() = default;
@@ -23,11 +23,13 @@ struct WallArrays {
   WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
              const Discretisation& discretisation);
 
+  WallKind kind = WallKind::facets;
   int count = 0;
   int stride = 0;                ///< from a field to the next; of facets, from a facet to the next
   compute::Buffer<Real> fields;  ///< as field::Wall has them for the kind
   compute::Buffer<int> starts;   ///< of each cell, one more than cells: in the fields, or in the list
   compute::Buffer<int> list;     ///< of facets by cell
+  std::vector<Facet> shapes;     ///< at rest, in the fields' order; of rectangles the centre alone
 };
 
 /// Thin walls on the device, that the water does not see through.

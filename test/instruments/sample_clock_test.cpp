@@ -25,8 +25,9 @@ class ClockedFluid final : public Solver {
   PackingReport pack(int, const std::function<void(double)>&) override { return {}; }
   StepReport start() override { return {}; }
   StepReport settle(double, const std::function<void(double)>&) override { return {}; }
-  StepReport advance() override { return {}; }
-  void set_wall_motions(const std::vector<WallMotion>&) override {}
+  StepReport advance(WallMover*) override { return {}; }
+  void set_wall_motions(const WallMotions&) override {}
+  void limit_time_step(double) override {}
   std::size_t particle_count() const override { return 0; }
   std::optional<ThinWall> thinnest_wall() const override { return {}; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
@@ -62,7 +63,7 @@ class Sampling : public ::testing::Test {
 
   /// Records over the given steps.
   Samples record(const std::vector<double>& steps) {
-    Recorder recorder(scene, layout, fluid);
+    Recorder recorder(scene, layout, fluid, world);
     fluid.time = 0;
     recorder.start(fluid);
     for (const double step : steps) {
@@ -89,6 +90,7 @@ class Sampling : public ::testing::Test {
 
   Case scene;
   Layout layout;
+  RigidWorld world{scene, layout};  // in which nothing moves
   ClockedFluid fluid;
 };
 
@@ -123,7 +125,7 @@ TEST_F(Sampling, ReadsOnlyWhereASampleIsDue) {
 }
 
 TEST_F(Sampling, ContinuesFromStoredIndices) {
-  Recorder first(scene, layout, fluid), second(scene, layout, fluid);
+  Recorder first(scene, layout, fluid, world), second(scene, layout, fluid, world);
   fluid.time = 0;
   first.start(fluid);
   first.before_step(fluid, 0, 0.0105);

@@ -42,7 +42,8 @@ void average(std::vector<Sample>& samples, Part part) {
 Readings read_still_water(const Case& scene, int steps) {
   Tank tank(scene);
   tank.pack_and_start(200);
-  Recorder recorder(tank.scene, tank.layout, *tank.solver);
+  const RigidWorld world(tank.scene, tank.layout);
+  Recorder recorder(tank.scene, tank.layout, *tank.solver, world);
   recorder.start(*tank.solver);
   Readings readings;
   readings.start = recorder.take();
@@ -121,7 +122,8 @@ double dry_level(Case scene) {
   scene.instruments.wave_gauges = {{"dry", Vector3d(0.5, 0, 0)}};
   Tank tank(scene);
   tank.pack_and_start(20);
-  Recorder recorder(tank.scene, tank.layout, *tank.solver);
+  const RigidWorld world(tank.scene, tank.layout);
+  Recorder recorder(tank.scene, tank.layout, *tank.solver, world);
   recorder.start(*tank.solver);
   return recorder.take().levels[0].levels[0];
 }

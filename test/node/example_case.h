@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wavetank/geometry/layout.h"
+#include "wavetank/node/frames.h"
 #include "wavetank/scene/case.h"
 
 namespace wavetank::test {
@@ -31,6 +32,25 @@ inline Layout example_layout() {
   layout.domain = {{1, 2, 3}, {3, 3, 4}};
   layout.meshes = {box_mesh(layout.domain, true, "tank"), box_mesh({{1.5, 2.25, 3.0}, {2.0, 2.75, 3.5}}, false, "box")};
   return layout;
+}
+
+/// Its frames: the box's reference point lies off the middle of its volume.
+inline std::vector<BodyFrame> example_frames(const Case& example = example_case()) {
+  return body_frames(example, {{0, 0, 0}, {1.75, 2.5, 3.2}});
+}
+
+/// The same case with a box that moves.
+inline Case moving_box_case() {
+  Case example = example_case();
+  example.bodies[0].motion = Motion::free;
+  return example;
+}
+
+/// The same in a tank that moves too.
+inline Case moving_tank_case() {
+  Case example = moving_box_case();
+  example.tank.motion = Motion::commanded;
+  return example;
 }
 
 }  // namespace wavetank::test

@@ -3,13 +3,13 @@
 
 import os
 import sys
-import threading
 import time
 import unittest
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from ear import Ear
 from geometry_msgs.msg import WrenchStamped
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, PointCloud2
@@ -41,57 +41,22 @@ TOPICS = {
 SAMPLED = ["/wavetank/probes", "/wavetank/probes/P1", "/wavetank/gauges", "/wavetank/bodies/tank/wrench", "/wavetank/bodies/step/wrench"]
 
 
-class Ear:
-    """Everything that was heard, by topic."""
-
-    def __init__(self):
-        self.lock = threading.Lock()
-        self.heard = {topic: [] for topic in TOPICS}
-        # The node begins when its lists are listened to: they come last, once the topics of single instruments are connected.
-        waited_for = ("/wavetank/probes", "/wavetank/gauges")
-        self.subscribers = [self.subscribe(topic) for topic in TOPICS if topic not in waited_for]
-        single = [subscriber for subscriber in self.subscribers if subscriber.name.startswith(("/wavetank/probes/", "/wavetank/bodies/"))]
-        self.wait(lambda: all(subscriber.get_num_connections() > 0 for subscriber in single), "a connection to each instrument")
-        self.subscribers += [self.subscribe(topic) for topic in waited_for]
-
-    def subscribe(self, topic):
-        return rospy.Subscriber(topic, TOPICS[topic], self.hear, topic, queue_size=10000)
-
-    def hear(self, message, topic):
-        with self.lock:
-            self.heard[topic].append(message)
-
-    def all(self, topic):
-        with self.lock:
-            return list(self.heard[topic])
-
-    def stamps(self, topic):
-        return [message.header.stamp.to_nsec() for message in self.all(topic)]
-
-    def wait(self, condition, what, seconds=60):
-        end = time.time() + seconds  # of wall time: the simulated may stand still
-        while time.time() < end:
-            if condition():
-                return
-            time.sleep(0.02)
-        raise AssertionError("never happened: " + what)
-
-    def wait_for_phase(self, phase):
-        self.wait(lambda: self.all("/wavetank/status") and self.all("/wavetank/status")[-1].phase == phase, "phase %d" % phase)
-
-
 class LiveNode(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("live_node_test")
-        cls.ear = Ear()
-        cls.ear.wait_for_phase(SolverStatus.FINISHED)
+        cls.ear = Ear(TOPICS)
+        cls.wait_for_phase(SolverStatus.FINISHED)
         for name in ["pause", "step", "reset", "save"]:
             rospy.wait_for_service("/wavetank/" + name)
         cls.pause = rospy.ServiceProxy("/wavetank/pause", SetBool)
         cls.step = rospy.ServiceProxy("/wavetank/step", Trigger)
         cls.reset = rospy.ServiceProxy("/wavetank/reset", Trigger)
         cls.save = rospy.ServiceProxy("/wavetank/save", Trigger)
+
+    @classmethod
+    def wait_for_phase(cls, phase):
+        cls.ear.wait(lambda: cls.ear.all("/wavetank/status") and cls.ear.last("/wavetank/status").phase == phase, "phase %d" % phase)
 
     def first_run(self, topic):
         return self.ear.all(topic)[:301]
@@ -166,7 +131,7 @@ class LiveNode(unittest.TestCase):
         self.assertTrue(self.pause(True).success)
         answer = self.reset()
         self.assertTrue(answer.success, answer.message)
-        self.ear.wait_for_phase(SolverStatus.PAUSED)
+        self.wait_for_phase(SolverStatus.PAUSED)
         before = self.ear.all("/wavetank/status")[-1]
         self.assertEqual((before.step, before.time, before.paused), (0, 0.0, True))
         for _ in range(3):
@@ -178,7 +143,7 @@ class LiveNode(unittest.TestCase):
         time.sleep(1.5)
         self.assertEqual(self.ear.all("/wavetank/status")[-1].step, 3, "paused is paused")
         self.assertTrue(self.pause(False).success)
-        self.ear.wait_for_phase(SolverStatus.FINISHED)
+        self.wait_for_phase(SolverStatus.FINISHED)
 
     def test_11_the_second_run_follows_the_first_in_time_and_repeats_it(self):
         stamps = self.ear.stamps("/wavetank/probes")

@@ -10,6 +10,7 @@
 namespace wavetank {
 
 using test::example_case;
+using test::example_frames;
 using test::example_layout;
 using visualization_msgs::Marker;
 
@@ -24,7 +25,7 @@ Marker find(const visualization_msgs::MarkerArray& drawing, const std::string& g
 }  // namespace
 
 TEST(Markers, DrawTankBodiesProbesAndGauges) {
-  const auto drawing = markers(example_case(), example_layout());
+  const auto drawing = markers(example_case(), example_layout(), example_frames());
   EXPECT_EQ(drawing.markers.front().action, Marker::DELETEALL);
   const Marker tank = find(drawing, "tank");
   EXPECT_EQ(tank.type, Marker::TRIANGLE_LIST);
@@ -54,7 +55,7 @@ TEST(Markers, KeepAPackageMeshAsAResource) {
   source.translation = {1, 2, 3};
   source.rotation = {0, 0, M_PI / 2};
   example.bodies[0].shape = source;
-  const Marker body = find(markers(example, example_layout()), "bodies");
+  const Marker body = find(markers(example, example_layout(), example_frames(example)), "bodies");
   EXPECT_EQ(body.type, Marker::MESH_RESOURCE);
   EXPECT_EQ(body.mesh_resource, source.uri);
   EXPECT_EQ(body.scale.y, 0.001);
@@ -68,7 +69,42 @@ TEST(Markers, SendOtherMeshesAsTriangles) {
   MeshSource source;
   source.uri = "hull.stl";
   example.bodies[0].shape = source;
-  EXPECT_EQ(find(markers(example, example_layout()), "bodies").type, Marker::TRIANGLE_LIST);
+  EXPECT_EQ(find(markers(example, example_layout(), example_frames(example)), "bodies").type, Marker::TRIANGLE_LIST);
+}
+
+TEST(Markers, OfAMovingBodyLieInItsFrameWhereTheGeometryHasIt) {
+  const auto drawing = markers(test::moving_tank_case(), example_layout(), example_frames(test::moving_tank_case()));
+  for (const char* group : {"bodies", "body edges"}) {
+    const Marker body = find(drawing, group);
+    EXPECT_EQ(body.header.frame_id, "basin/bodies/box");
+    EXPECT_TRUE(body.frame_locked);
+    // At the start the frame stands at (1.75, 2.5, 3.2) of the case's coordinates, its axes parallel to theirs.
+    double least = 1e9, greatest = -1e9;
+    for (const auto& point : body.points) {
+      least = std::min(least, 3.2 + body.pose.position.z + point.z);
+      greatest = std::max(greatest, 3.2 + body.pose.position.z + point.z);
+    }
+    EXPECT_NEAR(least, 3.0, 1e-12) << group;
+    EXPECT_NEAR(greatest, 3.5, 1e-12) << group;
+    EXPECT_NEAR(body.pose.position.x, -1.75, 1e-12);
+  }
+  for (const char* group : {"tank", "tank edges", "probes", "probe names", "gauges"})
+    EXPECT_EQ(find(drawing, group).header.frame_id, "basin");
+}
+
+TEST(Markers, PlaceAMovingPackageMeshByItsOwnTransform) {
+  Case example = test::moving_box_case();
+  MeshSource source;
+  source.uri = "package://somewhere/hull.stl";
+  source.translation = {1, 2, 3};
+  source.rotation = {0, 0, M_PI / 2};
+  example.bodies[0].shape = source;
+  const Marker body = find(markers(example, example_layout(), example_frames(example)), "bodies");
+  EXPECT_EQ(body.header.frame_id, "basin/bodies/box");
+  EXPECT_NEAR(body.pose.position.x, 1 - 1.75, 1e-12);
+  EXPECT_NEAR(body.pose.position.y, 2 - 2.5, 1e-12);
+  EXPECT_NEAR(body.pose.position.z, 3 - 3.2, 1e-12);
+  EXPECT_NEAR(body.pose.orientation.z, std::sqrt(0.5), 1e-12);
 }
 
 TEST(FeatureEdges, OfABoxAreItsTwelveEdges) { EXPECT_EQ(feature_edges(box_mesh({{0, 0, 0}, {1, 2, 3}}, false, "box"), 0.5).size(), 24U); }

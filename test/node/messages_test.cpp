@@ -10,10 +10,11 @@
 namespace wavetank {
 
 using test::example_case;
+using test::example_frames;
 using test::example_layout;
 
 TEST(SampleMessages, ProbesAreInGaugePascalsWithNamesAndPositions) {
-  const SampleMessages messages(example_case(), example_layout());
+  const SampleMessages messages(example_case(), example_layout(), example_frames());
   const ProbeArray array = messages.probes({0.25, {100.0, -7.5}}, StampClock());
   EXPECT_EQ(array.header.stamp, ros::Time(0.25));
   EXPECT_EQ(array.header.frame_id, "basin");
@@ -26,7 +27,7 @@ TEST(SampleMessages, ProbesAreInGaugePascalsWithNamesAndPositions) {
 }
 
 TEST(SampleMessages, FluidPressureAddsTheReferenceInTheProbesFrame) {
-  const SampleMessages messages(example_case(), example_layout());
+  const SampleMessages messages(example_case(), example_layout(), example_frames());
   const sensor_msgs::FluidPressure message = messages.probe(1, {0.25, {100.0, -7.5}}, StampClock());
   EXPECT_EQ(message.header.frame_id, "basin/probes/P2");
   EXPECT_EQ(message.header.stamp, ros::Time(0.25));
@@ -35,7 +36,7 @@ TEST(SampleMessages, FluidPressureAddsTheReferenceInTheProbesFrame) {
 }
 
 TEST(SampleMessages, GaugesStandOnTheTanksLowestPoint) {
-  const SampleMessages messages(example_case(), example_layout());
+  const SampleMessages messages(example_case(), example_layout(), example_frames());
   const WaveGaugeArray array = messages.gauges({0.5, {3.4}}, StampClock());
   ASSERT_EQ(array.positions.size(), 1U);
   EXPECT_EQ(array.positions[0].x, 2.5);
@@ -44,7 +45,7 @@ TEST(SampleMessages, GaugesStandOnTheTanksLowestPoint) {
 }
 
 TEST(SampleMessages, WrenchesAreTheSumOfPressureAndViscousParts) {
-  const SampleMessages messages(example_case(), example_layout());
+  const SampleMessages messages(example_case(), example_layout(), example_frames());
   WrenchSample sample;
   sample.time = 0.5;
   sample.wrenches.resize(2);
@@ -63,8 +64,28 @@ TEST(SampleMessages, WrenchesAreTheSumOfPressureAndViscousParts) {
   EXPECT_EQ(messages.wrench(0, SampleMessages::Part::total, sample, StampClock()).header.frame_id, "basin");
 }
 
+TEST(SampleMessages, AFreeTanksWrenchIsMovedFromItsCentreOfMassToItsFramesOrigin) {
+  Case example = example_case();
+  example.tank.motion = Motion::free;
+  const SampleMessages messages(example, example_layout(), body_frames(example, {{2, 0, 0}, {1.75, 2.5, 3.2}}));
+  WrenchSample sample;
+  sample.wrenches.resize(2);
+  sample.wrenches[0].pressure_force = {0, 0, 3};
+  sample.wrenches[0].pressure_torque = {0, 1, 0};
+  sample.wrenches[0].viscous_force = {0, 5, 0};
+  sample.wrenches[1].pressure_force = {0, 0, 7};
+  const auto total = messages.wrench(0, SampleMessages::Part::total, sample, StampClock());
+  EXPECT_EQ(total.header.frame_id, "basin");
+  EXPECT_EQ(total.wrench.force.z, 3.0);
+  EXPECT_EQ(total.wrench.torque.y, -5.0) << "1 − 2 · 3";
+  EXPECT_EQ(total.wrench.torque.z, 10.0) << "2 · 5";
+  EXPECT_EQ(messages.wrench(0, SampleMessages::Part::pressure, sample, StampClock()).wrench.torque.z, 0.0);
+  EXPECT_EQ(messages.wrench(1, SampleMessages::Part::total, sample, StampClock()).wrench.torque.y, 0.0)
+      << "a body's frame is at its reference";
+}
+
 TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {
-  const SampleMessages messages(example_case(), example_layout());
+  const SampleMessages messages(example_case(), example_layout(), example_frames());
   Samples samples;
   for (const double time : {0.0, 0.001, 0.002}) samples.pressures.push_back({time, {1.0, 2.0}});
   samples.levels.push_back({0.0, {3.1}});
@@ -73,7 +94,7 @@ TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {
   samples.wrenches.push_back(wrench);
   std::map<std::string, std::vector<ros::Time>> stamps;
   messages.emit(samples, StampClock(),
-                [&stamps](const std::string& topic, const auto& message) { stamps[topic].push_back(message.header.stamp); });
+                [&stamps](const std::string& topic, const ros::Time& stamp, const auto&) { stamps[topic].push_back(stamp); });
   const std::vector<ros::Time> three{ros::Time(0.0), ros::Time(0.001), ros::Time(0.002)};
   EXPECT_EQ(stamps["probes"], three);
   EXPECT_EQ(stamps["probes/P1"], three);
@@ -86,13 +107,13 @@ TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {
 
 TEST(Names, BecomeValidGraphNames) {
   EXPECT_EQ(probe_topic("bow 1-a"), "probes/bow_1_a");
-  EXPECT_EQ(body_topic("box"), "bodies/box/wrench");
+  EXPECT_EQ(wrench_topic("box"), "bodies/box/wrench");
 }
 
 TEST(Names, ThatShareATopicAreRefused) {
   Case example = example_case();
   example.instruments.pressure_probes = {{"P 1", {0, 0, 0}}, {"P_1", {0, 0, 0}}};
-  EXPECT_THROW(SampleMessages(example, example_layout()), Error);
+  EXPECT_THROW(SampleMessages(example, example_layout(), example_frames()), Error);
   example = example_case();
   example.bodies[0].name = "tank";
   try {
@@ -105,7 +126,7 @@ TEST(Names, ThatShareATopicAreRefused) {
 }
 
 TEST(StaticTransforms, PlaceProbesAndBodiesUnderTheWorldFrame) {
-  const auto transforms = static_transforms(example_case(), example_layout());
+  const auto transforms = static_transforms(example_case(), example_frames());
   ASSERT_EQ(transforms.size(), 3U);
   for (const auto& transform : transforms) {
     EXPECT_EQ(transform.header.frame_id, "basin");
@@ -115,7 +136,15 @@ TEST(StaticTransforms, PlaceProbesAndBodiesUnderTheWorldFrame) {
   EXPECT_EQ(transforms[0].transform.translation.z, 3.1);
   EXPECT_EQ(transforms[2].child_frame_id, "basin/bodies/box");
   EXPECT_NEAR(transforms[2].transform.translation.x, 1.75, 1e-12);
-  EXPECT_NEAR(transforms[2].transform.translation.z, 3.25, 1e-12);
+  EXPECT_NEAR(transforms[2].transform.translation.z, 3.2, 1e-12);
+}
+
+TEST(StaticTransforms, LeaveOutWhatMoves) {
+  const Case example = test::moving_box_case();
+  const auto transforms = static_transforms(example, example_frames(example));
+  ASSERT_EQ(transforms.size(), 2U);
+  EXPECT_EQ(transforms[0].child_frame_id, "basin/probes/P1");
+  EXPECT_EQ(transforms[1].child_frame_id, "basin/probes/P2");
 }
 
 TEST(StatusMessage, CarriesStateEnergiesAndRun) {

@@ -113,7 +113,7 @@ TEST(WallMotion, AnAcceleratedTankIsOneInAnotherGravity) {
       EXPECT_GT(ignored, 20 * equality) << name << ", " << dimensions << "-D: the test would not see that the acceleration is ignored";
       for (const Acceleration& way : ways_to(acceleration, middle, dimensions)) {
         const std::unique_ptr<Solver> solver = solver_about(standing, {way.centre, way.centre});
-        solver->set_wall_motions({way.motion, way.motion});
+        solver->set_wall_motions({{way.motion, way.motion}, {}});
         const Response found = respond(*solver, state, step);
         const double difference = greatest_difference(found, expected, acceleration) / size;
         std::printf("%d-D, %-16s %-17s the water's accelerations differ by %.1e of the walls' (if that is ignored: %.1e)\n", dimensions,
@@ -226,7 +226,7 @@ TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
       const Discretisation& d = tank.discretisation;
       const std::unique_ptr<Solver> solver = solver_about(tank, centres);
       const double step = solver->start().time_step;
-      solver->set_wall_motions(motions);  // after the start, which finds no rates then: the step's first half changes no density
+      solver->set_wall_motions({motions, {}});  // after the start, which finds no rates then: the step's first half changes no density
       ASSERT_TRUE(solver->advance().valid());
       const FluidState fluid = solver->download();
 
@@ -271,7 +271,7 @@ TEST(WallMotion, WaterOutOfReachOfABeltDoesNotFeelIt) {
       const std::unique_ptr<Solver> solver = solver_about(tank, {Vector3d::Zero()});
       std::vector<WallMotion> motions(1);
       if (runs) motions[0].surface_velocity = Vector3d(1, 0, 1);
-      solver->set_wall_motions(motions);
+      solver->set_wall_motions({motions, {}});
       solver->start();
       ASSERT_TRUE(solver->advance().valid()) << name;
       const FluidState fluid = solver->download();

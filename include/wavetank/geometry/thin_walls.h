@@ -21,6 +21,7 @@ struct Brim {
   Vector3d inwards;       ///< unit, in the face's plane from the edge onto the face
   Vector3d other_normal;  ///< of the face beyond the edge
   bool has_other = false;
+  int owner = 0;  ///< 0 the tank, 1 + i body i
 };
 
 /// Which walls of a layout are thin: another one, facing the other way (within 37° of opposite), lies less than a given thickness behind

@@ -16,7 +16,8 @@ namespace wavetank {
 /// contains the sample's time and interpolated linearly, so instruments never change the steps.
 class Recorder {
  public:
-  Recorder(const Case& settled_case, const Layout& layout, const Solver& solver);
+  /// `world` is looked at throughout.
+  Recorder(const Case& settled_case, const Layout& layout, const Solver& solver, const RigidWorld& world);
 
   /// The samples at time 0.
   void start(Solver& solver);
@@ -26,7 +27,7 @@ class Recorder {
 
   Samples take();
 
-  static constexpr std::size_t instrument_count = 4;
+  static constexpr std::size_t instrument_count = 5;
   std::array<std::uint64_t, instrument_count> clock_indices() const;
   void set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices);
 
@@ -43,8 +44,10 @@ class Recorder {
   void add_pressures(const Case& scene, const Solver& solver);
   void add_levels(const Case& scene, const Layout& layout, const Solver& solver);
   void add_wrenches(const Case& scene);
+  void add_poses(const Case& scene);
   void add_energies(const Case& scene);
 
+  const RigidWorld& world_;
   std::shared_ptr<PointSet> probes_;
   std::shared_ptr<WaveGauges> gauges_;
   std::vector<Instrument> instruments_;

@@ -3,6 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wavetank/rigid/rigid_state.h"
+#include "wavetank/rigid/rigid_world.h"
+
 namespace wavetank {
 
 using Eigen::Vector3d;
@@ -17,7 +20,8 @@ struct LevelSample {
   std::vector<double> levels;  ///< m, z of the free surface on each gauge's line; the floor's z where it is dry
 };
 
-/// Of the fluid on a body: about the body's centre of volume, for the tank about the origin. 2-D: per metre of width.
+/// Of the fluid on a body, in the body's axes about its reference point (RigidState): the centre of mass, or for a tank that is not free
+/// the case's origin. 2-D: per metre of width.
 struct Wrench {
   Vector3d pressure_force = Vector3d::Zero();   ///< N
   Vector3d viscous_force = Vector3d::Zero();    ///< N
@@ -28,6 +32,12 @@ struct Wrench {
 struct WrenchSample {
   double time = 0;               ///< s
   std::vector<Wrench> wrenches;  ///< 0 the tank, 1 + i body i
+};
+
+struct PoseSample {
+  double time = 0;                 ///< s
+  std::vector<RigidState> states;  ///< 0 the tank, in the world; 1 + i body i, relative to the tank and in its axes
+  std::vector<JointState> joints;  ///< in the case's order
 };
 
 struct EnergySample {
@@ -44,6 +54,7 @@ struct Samples {
   std::vector<LevelSample> levels;
   std::vector<WrenchSample> wrenches;
   std::vector<EnergySample> energies;
+  std::vector<PoseSample> poses;  ///< only where something moves
 };
 
 }  // namespace wavetank

@@ -45,6 +45,7 @@ class BagRun {
   std::unique_ptr<BagWriter> bag_;
   Progress progress_;
   std::unique_ptr<Simulation> simulation_;
+  std::vector<BodyFrame> frames_;
   std::unique_ptr<SampleMessages> messages_;
   StampClock clock_;
   std::string device_;

@@ -14,6 +14,7 @@
 #include "wavetank/geometry/layout.h"
 #include "wavetank/instruments/samples.h"
 #include "wavetank/node/names.h"
+#include "wavetank/node/pose_messages.h"
 #include "wavetank/node/stamps.h"
 #include "wavetank/simulation/simulation.h"
 
@@ -26,29 +27,30 @@ class SampleMessages {
   enum class Part { total, pressure, viscous };
 
   /// Throws Error if two instruments or bodies would share a topic.
-  SampleMessages(const Case& checked, const Layout& layout);
+  SampleMessages(const Case& checked, const Layout& layout, const std::vector<BodyFrame>& frames);
 
   ProbeArray probes(const PressureSample& sample, const StampClock& clock) const;
   /// Of one probe, in its own frame, with the case's reference pressure added. Pa.
   sensor_msgs::FluidPressure probe(std::size_t index, const PressureSample& sample, const StampClock& clock) const;
   WaveGaugeArray gauges(const LevelSample& sample, const StampClock& clock) const;
-  /// On body `index` (0 the tank), in axes parallel to the world's: about a body's centre of volume, its frame's origin; for the tank about
-  /// the origin of the case's coordinates.
+  /// On body `index` (0 the tank), in its frame and about that frame's origin.
   geometry_msgs::WrenchStamped wrench(std::size_t index, Part part, const WrenchSample& sample, const StampClock& clock) const;
 
-  /// Calls sink(topic, message) for every message of the samples, each exactly once and in order of time on its topic.
+  /// Calls sink(topic, stamp, message) for every message of the samples, each exactly once and in order of time on its topic.
   template <class Sink>
   void emit(const Samples& samples, const StampClock& clock, Sink&& sink) const {
+    const auto pass = [&sink](const std::string& topic, const auto& message) { sink(topic, message.header.stamp, message); };
+    for (const PoseSample& sample : samples.poses) poses_.emit(sample, clock, sink);
     for (const PressureSample& sample : samples.pressures) {
-      sink(probes_topic, probes(sample, clock));
-      for (std::size_t i = 0; i < probe_topics_.size(); ++i) sink(probe_topics_[i], probe(i, sample, clock));
+      pass(probes_topic, probes(sample, clock));
+      for (std::size_t i = 0; i < probe_topics_.size(); ++i) pass(probe_topics_[i], probe(i, sample, clock));
     }
-    for (const LevelSample& sample : samples.levels) sink(gauges_topic, gauges(sample, clock));
+    for (const LevelSample& sample : samples.levels) pass(gauges_topic, gauges(sample, clock));
     for (const WrenchSample& sample : samples.wrenches) {
       for (std::size_t i = 0; i < sample.wrenches.size(); ++i) {
-        sink(wrench_topics_[i], wrench(i, Part::total, sample, clock));
-        sink(wrench_topics_[i] + "/pressure", wrench(i, Part::pressure, sample, clock));
-        sink(wrench_topics_[i] + "/viscous", wrench(i, Part::viscous, sample, clock));
+        pass(wrench_topics_[i], wrench(i, Part::total, sample, clock));
+        pass(wrench_topics_[i] + "/pressure", wrench(i, Part::pressure, sample, clock));
+        pass(wrench_topics_[i] + "/viscous", wrench(i, Part::viscous, sample, clock));
       }
     }
   }
@@ -61,11 +63,13 @@ class SampleMessages {
   ProbeArray probes_;      ///< names and positions filled in
   WaveGaugeArray gauges_;  ///< likewise
   std::vector<std::string> probe_topics_, probe_frames_;
-  std::vector<std::string> wrench_topics_, wrench_frames_;
+  std::vector<std::string> wrench_topics_;
+  std::vector<BodyFrame> frames_;
+  PoseMessages poses_;
 };
 
-/// world → every probe and every body, none of which moves; with stamp 0, as static transforms have.
-std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const Layout& layout);
+/// Tank → every probe and every body that does not move; with stamp 0, as static transforms have.
+std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const std::vector<BodyFrame>& frames);
 
 /// What is known of a run besides the solver's own state.
 struct RunState {

@@ -11,9 +11,14 @@ namespace wavetank {
 std::string graph_name(const std::string& name);
 
 std::string probe_topic(const std::string& probe);                                    ///< "probes/P1"
-std::string body_topic(const std::string& body);                                      ///< "bodies/box/wrench"
+std::string wrench_topic(const std::string& body);                                    ///< "bodies/box/wrench"
+std::string odometry_topic(const std::string& body);                                  ///< "bodies/box/odom"
+std::string outside_wrench_topic(const std::string& body);                            ///< "bodies/box/external_wrench", listened to
+std::string command_topic(const std::string& body);                                   ///< "bodies/box/cmd_vel", listened to
 std::string probe_frame(const PublishingCase& publishing, const std::string& probe);  ///< "tank/probes/P1"
 std::string body_frame(const PublishingCase& publishing, const std::string& body);    ///< "tank/bodies/box"
+/// The frame that a moving tank moves in: "world", or "inertial" if the tank's own frame is called "world".
+std::string inertial_frame(const PublishingCase& publishing);
 
 /// The tank's own name among the bodies.
 inline const std::string tank_name = "tank";

@@ -12,10 +12,12 @@
 #include <string>
 
 #include "wavetank/node/bag_writer.h"
+#include "wavetank/node/body_inputs.h"
 #include "wavetank/node/cloud_publisher.h"
 #include "wavetank/node/messages.h"
 #include "wavetank/node/parameters.h"
 #include "wavetank/node/solver_loop.h"
+#include "wavetank/node/transform_publisher.h"
 
 namespace wavetank {
 
@@ -42,7 +44,10 @@ class TankNode {
   void idle(const Simulation& simulation);
   void ended(const LoopStatus& status);
   template <class Message>
-  void publish_sample(const std::string& topic, const Message& message);
+  void publish_sample(const std::string& topic, const ros::Time& stamp, const Message& message);
+  void send(const std::string& topic, const tf2_msgs::TFMessage& message);
+  template <class Message>
+  void send(const std::string& topic, const Message& message);
   void publish_clock(double time);
   void follow_earlier_clock();
   void note_clock(const LoopStatus& status);
@@ -62,7 +67,9 @@ class TankNode {
   std::unique_ptr<SampleMessages> messages_;  ///< of the solver's thread, once started
   std::map<std::string, ros::Publisher> sample_publishers_;
   ros::Publisher markers_, case_publisher_, status_, ros_clock_;
-  tf2_ros::StaticTransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  std::unique_ptr<TransformPublisher> moving_transforms_;  ///< none where nothing moves
+  BodyInputs inputs_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<BagWriter> bag_;
   double next_bag_cloud_ = 0;   ///< s of simulated time

@@ -50,20 +50,154 @@ struct BoxTank {
   bool closed = false;                 ///< true: with a lid
 };
 
+/// How the tank or a body moves.
+enum class Motion {
+  fixed,
+  free,        ///< by its weight, the fluid, contacts, joints and outside forces
+  prescribed,  ///< as the case says
+  commanded    ///< at a velocity that is given while it runs
+};
+
+/// Along and about the axes of the case's coordinates (surge … yaw, REP 103), or along and about a motion's own axis (stroke, angle). In
+/// 2-D surge, heave, pitch, stroke and angle exist. Rotations are about the motion's point, yaw after pitch after roll.
+enum class Direction { surge, sway, heave, roll, pitch, yaw, stroke, angle };
+
+/// amplitude · sin(2π frequency t + phase), less its value at t = 0, times a smooth rise from 0 to 1 over `rise`.
+struct HarmonicCase {
+  Direction direction = Direction::surge;
+  double amplitude = 0;  ///< m or rad
+  double frequency = 0;  ///< Hz
+  double phase = 0;      ///< rad
+  double rise = 0;       ///< s
+};
+
+/// A smooth change (velocity and acceleration continuous) between two times.
+struct RampCase {
+  Direction direction = Direction::surge;
+  double change = 0;  ///< m or rad
+  double from = 0;    ///< s
+  double to = 0;      ///< s; > from
+};
+
+/// A column of a file of comma-separated values with one header line, followed by a natural cubic spline; held at its ends. Its value at
+/// t = 0 counts as a displacement from the case's geometry.
+struct RecordCase {
+  std::string file;                    ///< package://, file://, absolute, or relative to the case file
+  std::string time_column = "time";    ///< s, increasing
+  std::string column;                  ///< empty: every column named as a direction
+  std::optional<Direction> direction;  ///< of `column`; none = the one it is named after
+  double factor = 1;                   ///< m or rad per unit of the column; negative turns it round
+  double delay = 0;                    ///< s, added to the file's times
+};
+
+struct PrescribedCase {
+  std::optional<Vector3d> point;        ///< m, that rotations are about; none = centre of mass, for the tank the case's origin
+  Vector3d axis{0.0, 1.0, 0.0};         ///< of stroke and angle; any length but 0
+  std::vector<HarmonicCase> harmonics;  ///< all of these are added up, direction by direction
+  std::vector<RampCase> ramps;
+  std::vector<RecordCase> records;
+};
+
+/// Limits on a commanded motion; none = as it is commanded.
+struct CommandCase {
+  std::optional<double> greatest_speed;                       ///< m/s
+  std::optional<double> greatest_angular_speed;               ///< rad/s
+  std::optional<double> greatest_acceleration = 1.0;          ///< m/s²
+  std::optional<double> greatest_angular_acceleration = 1.0;  ///< rad/s²
+  double timeout = 0.5;  ///< s of simulated time without a command after which it brakes to a stop; 0 = never
+};
+
+/// A force on a free body from outside, constant or harmonic in time.
+struct ForceCase {
+  Vector3d force = Vector3d::Zero();   ///< N (2-D: N/m)
+  Vector3d torque = Vector3d::Zero();  ///< N·m (2-D: N)
+  std::optional<Vector3d> point;       ///< m, of the body as given, where the force acts; none = centre of mass
+  bool turns_with_body = false;        ///< force and torque keep their direction in the body, as a thruster's
+  double from = 0;                     ///< s
+  std::optional<double> to;            ///< s; none = to the end
+  double frequency = 0;                ///< Hz; 0 = constant, else times sin(2π frequency (t − from) + phase)
+  double phase = 0;                    ///< rad
+};
+
+/// A line between a point of the world and one of a free body: a linear spring with a damper along it.
+struct MooringCase {
+  Vector3d anchor = Vector3d::Zero();      ///< m, in the tank's coordinates; moves with the tank
+  Vector3d attachment = Vector3d::Zero();  ///< m, of the body as given
+  double stiffness = 0;                    ///< N/m (2-D: N/m²)
+  double damping = 0;                      ///< N·s/m
+  std::optional<double> length;            ///< m, unstretched; none = the distance at the start
+  bool slack = true;                       ///< pulls only, as a rope; else pushes too
+};
+
+/// What stands for a body in contacts.
+enum class CollisionShape {
+  automatic,  ///< the box for a box; the convex hull where it fills less than 2 % more than the mesh; else a decomposition
+  convex_hull,
+  decomposition,  ///< convex parts, found automatically
+  parts,          ///< convex hulls of the meshes listed
+  none            ///< passes through everything but the fluid
+};
+
+/// What rigid-body dynamics asks of the tank or a body.
+struct RigidCase {
+  std::optional<double> mass;              ///< kg (2-D: kg/m)
+  std::optional<double> density;           ///< kg/m³, of the volume enclosed; a free body has exactly one of mass and density
+  std::optional<Vector3d> centre_of_mass;  ///< m; none = centre of volume
+  std::optional<std::array<double, 6>>
+      inertia;  ///< kg·m², xx yy zz xy xz yz about the centre of mass; none = of uniform density. 2-D: only yy counts
+  Vector3d velocity = Vector3d::Zero();          ///< m/s, at the start
+  Vector3d angular_velocity = Vector3d::Zero();  ///< rad/s, at the start
+  double friction = 0.5;                         ///< Coulomb's; of two in contact, the product's root
+  double restitution = 0.0;                      ///< of two in contact, the greater
+  CollisionShape collision = CollisionShape::automatic;
+  std::vector<MeshSource> collision_parts;
+  PrescribedCase prescribed;
+  CommandCase command;
+  std::vector<ForceCase> forces;
+  std::vector<MooringCase> moorings;
+};
+
 struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
   bool splash_guard =
       true;  ///< spray above the rim is kept over the tank, as if its walls went on upwards; else it is lost and the run stops
   std::array<bool, 3> periodic{};  ///< along x, y, z: what leaves the tank's bounding box at one end comes in at the other
+  Motion motion = Motion::fixed;
+  RigidCase rigid;
 };
-
-enum class Motion { fixed };
 
 struct BodyCase {
   std::string name;
   std::variant<Box, MeshSource> shape;
   Motion motion = Motion::fixed;
   Vector3d surface_velocity = Vector3d::Zero();  ///< m/s, of a belt: its surface runs while the body stands
+  RigidCase rigid;
+};
+
+enum class JointType {
+  fixed,
+  hinge,   ///< turns about the axis
+  slider,  ///< slides along it
+  ball,
+  spring,  ///< a spring and a damper along the line between the two points
+  six_dof  ///< limits along and about x, y, z
+};
+
+/// Between two bodies, or a body and the tank or the world.
+struct JointCase {
+  std::string name;
+  JointType type = JointType::hinge;
+  std::string parent = "world";                 ///< a body, "tank" or "world"
+  std::string child;                            ///< a body
+  Vector3d point = Vector3d::Zero();            ///< m, of the child; a spring's end on it
+  std::optional<Vector3d> parent_point;         ///< m, a spring's end on the parent; only of a spring, and required there
+  Vector3d axis{0.0, 1.0, 0.0};                 ///< of hinge and slider; any length but 0
+  std::optional<std::array<double, 2>> limits;  ///< rad or m from the start, of hinge and slider; none = free
+  std::array<std::optional<std::array<double, 2>>, 6>
+      six_limits;                ///< of six_dof: x y z in m, roll pitch yaw in rad; none = free; equal = locked
+  double stiffness = 0;          ///< N/m, N·m/rad about a hinge: towards the start
+  double damping = 0;            ///< N·s/m, N·m·s/rad
+  std::optional<double> length;  ///< m, of a spring unstretched; none = the distance at the start
 };
 
 enum class Scheme { delta_sph };
@@ -129,6 +263,7 @@ struct InstrumentsCase {
   std::optional<double> gauge_rate;   ///< Hz
   std::optional<double> wrench_rate;  ///< Hz
   std::optional<double> energy_rate;  ///< Hz
+  std::optional<double> pose_rate;    ///< Hz, of moving bodies' poses and joints; none = 100, or `rate` where that is less
 };
 
 /// How the node publishes; the solver does not know of it.
@@ -151,6 +286,7 @@ struct Case {
   FluidCase fluid;
   TankCase tank;
   std::vector<BodyCase> bodies;
+  std::vector<JointCase> joints;
   NumericsCase numerics;
   InstrumentsCase instruments;
   PublishingCase publishing;

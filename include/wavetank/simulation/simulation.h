@@ -10,6 +10,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/geometry/layout.h"
 #include "wavetank/instruments/samples.h"
+#include "wavetank/rigid/rigid_world.h"
 #include "wavetank/scene/case.h"
 
 namespace wavetank {
@@ -75,6 +76,12 @@ class Simulation {
   /// One time step. Throws Violation when the watchdog stops the simulation; samples up to then can still be taken.
   void advance();
   Samples take_samples();
+
+  /// On a free body (owner 1 + i) from the next step on. Throws Error for a body that is not free, or a value that is not finite.
+  void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
+  /// Of a commanded body or tank (owner 0), in its own axes, from the next step on. Throws Error as set_outside_wrench.
+  void command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity);
+  const RigidWorld& bodies() const;
 
   SolverState state() const;
   EnergySample energies() const;

@@ -30,8 +30,8 @@ struct Discretisation {
 /// The greatest speed that a case is expected to reach: of a free fall from the fluid's highest level to the tank's floor, m/s.
 double expected_speed(const Case& checked, const Layout& layout);
 
-/// The case with its automatic values settled: sound speed, spacing, support.
-Case settled(const Case& checked, const Layout& layout);
+/// The case with its automatic values settled: sound speed, spacing, support. `fastest_wall`: the greatest speed expected of any wall, m/s.
+Case settled(const Case& checked, const Layout& layout, double fastest_wall = 0);
 
 /// From a settled case. Throws Error if the neighbour grid would be larger than a device can index.
 Discretisation discretise(const Case& settled_case, const Layout& layout);

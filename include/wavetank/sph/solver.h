@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -65,13 +66,42 @@ struct FluidEnergies {
 /// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.
 using WallWrench = std::array<Eigen::Vector3d, 4>;
 
-/// How an owner of walls moves, as far as the fluid feels it. SI units, about the owner's centre as given to make_solver.
+/// How an owner of walls moves, as far as the fluid feels it, relative to the tank. SI units, about the owner's centre, which was given to
+/// make_solver and moves with it.
 struct WallMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();              ///< m/s
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();      ///< rad/s
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();          ///< m/s²
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< rad/s²
   Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();      ///< m/s, of a belt; only its part along the surface acts
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();          ///< m, of the centre from where the layout has it; only of moving owners
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< from that of the layout
+};
+
+/// The frame in which the fluid is solved, the tank's, where that moves. All in the tank's axes.
+struct FrameMotion {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();               ///< m/s², less the acceleration of the frame's origin
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();                ///< m, in the tank's coordinates: what the two others are about
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();      ///< rad/s
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< rad/s²
+};
+
+struct WallMotions {
+  std::vector<WallMotion> owners;    ///< 0 the tank, whose walls stand in its own frame; 1 + i body i
+  std::optional<FrameMotion> frame;  ///< of a tank that moves
+};
+
+/// Moves walls in the course of a step.
+class WallMover {
+ public:
+  virtual ~WallMover() = default;
+  /// Owners whose wrenches to_end wants.
+  virtual std::vector<int> coupled() const = 0;
+  /// Halfway through a step of `time_step`, s.
+  virtual WallMotions to_middle(double time_step) = 0;
+  /// At its end; `wrenches` (one a coupled owner, in their order): of the fluid in the middle, in the tank's axes, from the very sums that
+  /// act on the fluid.
+  virtual WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) = 0;
 };
 
 /// Particle state on the host, in the device's order. Positions in the case's coordinates.
@@ -100,18 +130,20 @@ class Solver {
   /// depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a report in violation
   /// ends it early.
   virtual StepReport settle(double periods, const std::function<void(double fraction)>& progress) = 0;
-  /// One time step of the case's integrator.
-  virtual StepReport advance() = 0;
+  /// One time step of the case's integrator. Without a mover walls stay where they are.
+  virtual StepReport advance(WallMover* mover = nullptr) = 0;
 
-  /// Velocities and accelerations of the walls, one an owner, from the next step on. The walls' places stay.
-  virtual void set_wall_motions(const std::vector<WallMotion>& motions) = 0;
+  /// Places, velocities and accelerations of the walls, from the next step on.
+  virtual void set_wall_motions(const WallMotions& motions) = 0;
+  /// The next steps are no longer than this, s, whatever the fluid allows.
+  virtual void limit_time_step(double limit) = 0;
 
   virtual std::size_t particle_count() const = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
   virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;
   virtual std::vector<PointValue> evaluate(const PointSet& points) = 0;
-  /// One wrench an owner (0 the tank, 1 + i body i), about `centres` as given to make_solver.
+  /// One wrench an owner (0 the tank, 1 + i body i) about its centre, in the tank's axes.
   virtual std::vector<WallWrench> wrenches() = 0;
   virtual FluidEnergies energies() = 0;
   virtual FluidState download() = 0;

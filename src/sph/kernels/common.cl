@@ -54,6 +54,19 @@ typedef struct {
 #define WALL_AREA 8
 // ... and each kind its own from here on
 
+// Regions of cells about an owner of walls, in which particles may touch it; gone through in runs of cells along x.
+#define REGION_RUN 8
+#define REGION_OWNER 0
+#define REGION_ITEM 1         // its first run among those of all regions
+#define REGION_CELL_X 2
+#define REGION_CELL_Y 3
+#define REGION_CELL_Z 4
+#define REGION_END_X 5        // beyond its last cell
+#define REGION_RUNS 6         // in a row of it
+#define REGION_ROWS 7         // along y
+#define REGION_COUNT 8
+#define WRENCH_COUNT 12       // pressure force, viscous force, pressure torque, viscous torque
+
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
 INLINE real kernel_value(__constant const parameters_t* p, real distance) {
   const real q = distance * p->inverse_smoothing;

@@ -13,6 +13,9 @@ typedef struct {
   real gradient_x, gradient_y, gradient_z;
 #endif
   real u, v, w, compression;
+#if DIFFUSION_FOURTAKAS
+  vector_t hydrostatic;  // gradient of the compression
+#endif
   real divergence, diffusion;
   real shepard;
 } sweep_t;
@@ -36,9 +39,9 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 #if DIFFUSION_FOURTAKAS
   // of the dynamic density only: what hydrostatics explains, linearised, is not diffused
-  real explained = p->hydrostatic_x * rx + p->hydrostatic_z * rz;
+  real explained = a->hydrostatic.x * rx + a->hydrostatic.z * rz;
 #if DIMENSIONS == 3
-  explained += p->hydrostatic_y * ry;
+  explained += a->hydrostatic.y * ry;
 #endif
   a->diffusion += R(2.0) * slope_volume * (difference - explained);
 #elif DIFFUSION_ANTUONO
@@ -85,6 +88,15 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   a.w = state[FIELD_W * stride + i];
   a.compression = state[FIELD_COMPRESSION * stride + i];
   a.shepard = SHEPARD_START;
+#if DIFFUSION_FOURTAKAS
+#if MOVING_FRAME
+  const vector_t gravity = gravity_at(p, &walls, a.near.x, a.near.y, a.near.z, make_vector(a.u, a.v, a.w));
+  const real inverse = p->density / p->bulk_modulus;
+  a.hydrostatic = make_vector(gravity.x * inverse, gravity.y * inverse, gravity.z * inverse);
+#else
+  a.hydrostatic = make_vector(p->hydrostatic_x, p->hydrostatic_y, p->hydrostatic_z);
+#endif
+#endif
   sweep_particles(&a, p, cell_start, images);
 #if !GHOSTS
   sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);

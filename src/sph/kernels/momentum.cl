@@ -20,6 +20,7 @@ typedef struct {
   const walls_t* walls;
   __global const real* wall_loads;
   real u, v, w, pressure, density;
+  vector_t gravity;
   real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
@@ -47,7 +48,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
 #if NEEDS_FIT
   if (a->fitting)
-    add_to_fit(&a->fit, kernel_value(p, distance) * volume, pressure - p->density * (p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz), rx, ry, rz);
+    add_to_fit(&a->fit, kernel_value(p, distance) * volume, pressure - p->density * (a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz), rx, ry, rz);
 #endif
   const vector_t velocity = neighbour_velocity(&a->near, j);
   const real du = velocity.x - a->u;
@@ -100,8 +101,8 @@ INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) { a->fitted
 INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
 #if MOVING_WALLS
   if (!a->fitting) return R(0.0);  // no wall is near, and there is no fit
-  const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (p->gravity_x - gravity.x), p->density * (p->gravity_y - gravity.y),
-                                                       p->density * (p->gravity_z - gravity.z)));
+  const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (a->gravity.x - gravity.x), p->density * (a->gravity.y - gravity.y),
+                                                       p->density * (a->gravity.z - gravity.z)));
 #else
   const plane_t plane = a->fitted;
 #endif
@@ -131,7 +132,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
   const real foot_x = x + c.distance * c.normal.x, foot_y = y + c.distance * c.normal.y, foot_z = z + c.distance * c.normal.z;
 #if FACETS
-  const real push = fitted_push(a, p, &c, gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z));
+  const real push = fitted_push(a, p, &c, gravity_at_wall(p, a->walls, s, foot_x, foot_y, foot_z, make_vector(a->u, a->v, a->w)));
 #else
   const real push = (a->pressure + a->wall_loads[s]) * c.weight;
 #endif
@@ -173,7 +174,7 @@ INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x
   const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
   // the mean, not the fitted plane: that plane rests on the few particles in sight, and made the noise there three times as great
   const real push = (a->pressure + a->fit.pressure / a->fit.weight) * b.weight +
-                    a->density * (p->gravity_x * b.moment.x + p->gravity_y * b.moment.y + p->gravity_z * b.moment.z);
+                    a->density * dot3(a->gravity, b.moment);
   a->force_x += push * b.normal.x;
   a->force_y += push * b.normal.y;
   a->force_z += push * b.normal.z;
@@ -233,6 +234,7 @@ INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global cons
   a.w = state[FIELD_W * stride + i];
   a.pressure = state[FIELD_PRESSURE * stride + i];
   a.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
+  a.gravity = gravity_at(p, walls, a.near.x, a.near.y, a.near.z, make_vector(a.u, a.v, a.w));
   a.shepard = SHEPARD_START;
   a.clearance = p->support;
 #if NEEDS_FIT
@@ -242,66 +244,90 @@ INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global cons
 }
 
 #if WALL_FORCES
-INLINE void write_vector(__global real* fields, int stride, int field, int i, vector_t v) {
-  fields[field * stride + i] = v.x;
-  fields[(field + 1) * stride + i] = v.y;
-  fields[(field + 2) * stride + i] = v.z;
-}
-
 INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vector(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z); }
 
 // Of ∫ W dS in 1/h, which is 3/4 on a flat wall: less is what rounding leaves of facets that end beyond the support.
 #define LEAST_TOUCH R(5.0e-6)
 
-// Per particle: pressure force, viscous force and their torques about the owner's centre.
-__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int owner, __global const real* centres,
-                          __global real* forces) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
-  const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
-  sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
+typedef struct {
+  vector_t push, drag, place;  // pressure force, viscous force, and where they act
+  bool any;
+} owner_force_t;
+
+// What particle i does to the walls of one owner.
+INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, __global const int* cell_start, __global const real* state, int stride,
+                                    const walls_t* walls, __global const real* images, __global const real* wall_loads, int owner) {
+  owner_force_t f;
+  f.any = false;
+  sweep_t a = start_sums(p, i, state, stride, walls, wall_loads);
   a.owner = owner;
-  vector_t push = nothing, drag = nothing, place = nothing;
 #if GHOSTS
   sweep_ghosts(&a, p, cell_start, images);
   add_repulsion(&a, p, images);
-  push = make_vector(a.force_x, a.force_y, a.force_z);
-  drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
-  place = make_vector(a.near.x, a.near.y, a.near.z);
-  const real share = R(1.0);
+  f.push = make_vector(a.force_x, a.force_y, a.force_z);
+  f.drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
+  f.place = make_vector(a.near.x, a.near.y, a.near.z);
+  f.any = true;
 #else
   a.looking = true;
-  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
-  real share = R(0.0);
-  if (a.touched * p->smoothing_length > LEAST_TOUCH) {
-    a.looking = false;
-    a.touched = R(0.0);
-    sweep_particles(&a, p, cell_start, images);
+  sweep_walls(&a, p, walls, images, a.near.x, a.near.y, a.near.z);
+  if (a.touched * p->smoothing_length <= LEAST_TOUCH) return f;
+  f.any = true;
+  a.looking = false;
+  a.touched = R(0.0);
+  sweep_particles(&a, p, cell_start, images);
 #if NEEDS_FIT
-    finish_fit(&a, p);
+  finish_fit(&a, p);
 #endif
-    const vector_t pair_push = make_vector(a.force_x, a.force_y, a.force_z);
-    const vector_t pair_drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
-    sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
-    const real renormalise = R(1.0) / bounded_shepard(a.shepard);
-    const real unequal = (renormalise - R(1.0)) * a.touched / a.weight;  // each owner's part of the unequal exchange
-    push = mixed(renormalise, a.push, unequal, pair_push);
-    drag = mixed(-renormalise, a.drag, unequal, pair_drag);
-    const real inverse = R(1.0) / a.touched;
-    place = make_vector(a.touched_at.x * inverse, a.touched_at.y * inverse, a.touched_at.z * inverse);
-    share = R(1.0);
+  const vector_t pair_push = make_vector(a.force_x, a.force_y, a.force_z);
+  const vector_t pair_drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
+  sweep_walls(&a, p, walls, images, a.near.x, a.near.y, a.near.z);
+  const real renormalise = R(1.0) / bounded_shepard(a.shepard);
+  const real unequal = (renormalise - R(1.0)) * a.touched / a.weight;  // each owner's part of the unequal exchange
+  f.push = mixed(renormalise, a.push, unequal, pair_push);
+  f.drag = mixed(-renormalise, a.drag, unequal, pair_drag);
+  const real inverse = R(1.0) / a.touched;
+  f.place = make_vector(a.touched_at.x * inverse, a.touched_at.y * inverse, a.touched_at.z * inverse);
+#endif
+  const real volume = state[FIELD_VOLUME * stride + i];
+  f.push = mixed(volume, f.push, R(0.0), f.push);
+  f.drag = mixed(volume, f.drag, R(0.0), f.drag);
+  return f;
+}
+
+// Per run of cells of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
+__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int regions, __global const int* region_values,
+                          __global const real* centres, __global real* wrenches) {
+  const int item = get_global_id(0);
+  if (item >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  int k = 0;
+  while (k + 1 < regions && item >= region_values[(k + 1) * REGION_COUNT + REGION_ITEM]) ++k;
+  __global const int* region = region_values + k * REGION_COUNT;
+  const int owner = region[REGION_OWNER];
+  const int in_region = item - region[REGION_ITEM];
+  const int run = in_region % region[REGION_RUNS], row = in_region / region[REGION_RUNS];
+  const int first = region[REGION_CELL_X] + run * REGION_RUN;
+  const int end = min(first + REGION_RUN, region[REGION_END_X]);
+  const int line = ((region[REGION_CELL_Z] + row / region[REGION_ROWS]) * p->cells_y + region[REGION_CELL_Y] + row % region[REGION_ROWS]) * p->cells_x;
+  const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
+  vector_t push = nothing, drag = nothing, push_torque = nothing, drag_torque = nothing;
+  for (int i = cell_start[line + first]; i < cell_start[line + end]; ++i) {
+    const owner_force_t f = force_on_owner(p, i, cell_start, state, stride, &walls, images, wall_loads, owner);
+    if (!f.any) continue;
+    const vector_t arm = make_vector(f.place.x - centres[3 * owner], f.place.y - centres[3 * owner + 1], f.place.z - centres[3 * owner + 2]);
+    push = mixed(R(1.0), push, R(1.0), f.push);
+    drag = mixed(R(1.0), drag, R(1.0), f.drag);
+    push_torque = mixed(R(1.0), push_torque, R(1.0), cross3(arm, f.push));
+    drag_torque = mixed(R(1.0), drag_torque, R(1.0), cross3(arm, f.drag));
   }
-#endif
-  const real volume = share * state[FIELD_VOLUME * stride + i];
-  push = mixed(volume, push, R(0.0), nothing);
-  drag = mixed(volume, drag, R(0.0), nothing);
-  const vector_t arm = make_vector(place.x - centres[3 * owner], place.y - centres[3 * owner + 1], place.z - centres[3 * owner + 2]);
-  write_vector(forces, stride, 0, i, push);
-  write_vector(forces, stride, 3, i, drag);
-  write_vector(forces, stride, 6, i, cross3(arm, push));
-  write_vector(forces, stride, 9, i, cross3(arm, drag));
+  const vector_t sums[4] = {push, drag, push_torque, drag_torque};
+  for (int part = 0; part < 4; ++part) {
+    wrenches[WRENCH_COUNT * item + 3 * part] = sums[part].x;
+    wrenches[WRENCH_COUNT * item + 3 * part + 1] = sums[part].y;
+    wrenches[WRENCH_COUNT * item + 3 * part + 2] = sums[part].z;
+  }
 }
 #else
 __kernel void momentum(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
@@ -330,9 +356,9 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
 #endif
 
   const real per_mass = R(1.0) / (bounded_shepard(a.shepard) * a.density);
-  rates[RATE_U * stride + i] = (a.viscous_x - a.force_x) * per_mass + p->gravity_x;
-  rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (a.viscous_y - a.force_y) * per_mass + p->gravity_y : R(0.0);
-  rates[RATE_W * stride + i] = (a.viscous_z - a.force_z) * per_mass + p->gravity_z;
+  rates[RATE_U * stride + i] = (a.viscous_x - a.force_x) * per_mass + a.gravity.x;
+  rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (a.viscous_y - a.force_y) * per_mass + a.gravity.y : R(0.0);
+  rates[RATE_W * stride + i] = (a.viscous_z - a.force_z) * per_mass + a.gravity.z;
   rates[RATE_CLEARANCE * stride + i] = a.clearance;
 }
 #endif

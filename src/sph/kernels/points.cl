@@ -15,6 +15,7 @@
 typedef struct {
   neighbours_t near;
   const walls_t* walls;
+  vector_t gravity;  // as a point that rests in the tank feels it
   real weight, pressure;
   real shepard;
   bool finding_touched;             // the walls' sweep looks for walls that the point lies on, instead of γ
@@ -24,7 +25,7 @@ typedef struct {
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
   const real weight = kernel_value(p, sqrt(r2)) * a->near.state[FIELD_VOLUME * a->near.stride + j];
   const real density = p->density * (R(1.0) + a->near.state[FIELD_COMPRESSION * a->near.stride + j]);
-  const real head = p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz;
+  const real head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
   a->weight += weight;
   a->pressure += weight * (neighbour_pressure(&a->near, p, j, rx, ry, rz) - density * head);
 }
@@ -69,6 +70,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   sweep_t a = {0};
   a.near = neighbours_of(state, stride, &walls, points[i], points[count + i], points[2 * count + i]);
   a.walls = &walls;
+  a.gravity = gravity_at(p, &walls, a.near.x, a.near.y, a.near.z, make_vector(R(0.0), R(0.0), R(0.0)));
   sweep_particles(&a, p, cell_start, images);
   find_shepard(&a, p, images);
   // where less than half of what the walls leave of the kernel is fluid, the air's zero pressure counts for the rest of that half: a droplet alone does

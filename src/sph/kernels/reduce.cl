@@ -150,24 +150,15 @@ __kernel void packing_total(int count, __global const real* rates, int stride, _
   total[1] = greatest;
 }
 
-// Force and torque on one owner of walls, from what each particle does to it: pressure force, viscous force, pressure torque, viscous torque.
-#define WRENCH_COUNT 12
-
-__kernel void wrench_chunks(int count, __global const real* forces, int stride, __global real* wrenches) {
-  const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= count) return;
-  for (int k = 0; k < WRENCH_COUNT; ++k) {
+// Force and torque on each owner of walls, from what the runs of cells of its region do to it.
+__kernel void wrench_totals(int regions, int items, __global const int* region_values, __global const real* wrenches, __global real* totals) {
+  const int k = get_global_id(0);
+  if (k >= regions) return;
+  const int first = region_values[k * REGION_COUNT + REGION_ITEM];
+  const int end = k + 1 < regions ? region_values[(k + 1) * REGION_COUNT + REGION_ITEM] : items;
+  for (int part = 0; part < WRENCH_COUNT; ++part) {
     real sum = R(0.0), rest = R(0.0);
-    for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) add_compensated(forces[k * stride + i], &sum, &rest);
-    wrenches[chunk * WRENCH_COUNT + k] = sum;
-  }
-}
-
-__kernel void wrench_total(int chunks, __global const real* wrenches, __global real* total) {
-  if (get_global_id(0) != 0) return;
-  for (int k = 0; k < WRENCH_COUNT; ++k) {
-    real sum = R(0.0), rest = R(0.0);
-    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(wrenches[chunk * WRENCH_COUNT + k], &sum, &rest);
-    total[k] = sum;
+    for (int item = first; item < end; ++item) add_compensated(wrenches[item * WRENCH_COUNT + part], &sum, &rest);
+    totals[k * WRENCH_COUNT + part] = sum;
   }
 }

@@ -39,7 +39,7 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
 #else
   a.near = neighbours_of(state, stride, &walls, x, y, z);
 #endif
-  a.gravity = gravity_at_wall(p, &walls, s, x, y, z);
+  a.gravity = gravity_at_wall(p, &walls, s, x, y, z, wall_velocity(&walls, s, make_vector(R(0.0), R(0.0), R(0.0)), x, y, z));
   sweep_particles(&a, p, cell_start, images);
   const bool wet = a.fit.weight > DRY;
   loads[s] = wet ? fitted_plane(p, &a.fit, make_vector(R(0.0), R(0.0), R(0.0))).value : R(0.0);

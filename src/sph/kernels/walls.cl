@@ -211,15 +211,34 @@ INLINE real bounded_shepard(real shepard) {
 #define SHEPARD_START R(1.0)
 #endif
 
-// Motion of the walls' owners: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
+// First the tank's frame, in which the fluid is solved: gravity less the acceleration of the frame's origin, angular velocity, angular acceleration, and the
+// origin itself.
+#define FRAME_COUNT 12
+// Then, of each owner of walls: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
 #define MOTION_COUNT 18
+#define MOTION_OF(walls, s) ((walls)->motions + FRAME_COUNT + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s))
 
 INLINE vector_t motion_vector(__global const real* motion, int which) { return make_vector(motion[3 * which], motion[3 * which + 1], motion[3 * which + 2]); }
+
+// Gravity at the point (x, y, z) as it acts on what moves there at the given velocity, in the tank's frame.
+INLINE vector_t gravity_at(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, vector_t velocity) {
+#if MOVING_FRAME
+  __global const real* frame = walls->motions;
+  const vector_t spin = motion_vector(frame, 1);
+  const vector_t arm = make_vector(x - frame[9], y - frame[10], z - frame[11]);
+  const vector_t turn = cross3(motion_vector(frame, 2), arm);
+  const vector_t around = cross3(spin, arm);
+  const vector_t carried = cross3(spin, make_vector(around.x + R(2.0) * velocity.x, around.y + R(2.0) * velocity.y, around.z + R(2.0) * velocity.z));
+  return make_vector(frame[0] - turn.x - carried.x, frame[1] - turn.y - carried.y, frame[2] - turn.z - carried.z);
+#else
+  return make_vector(p->gravity_x, p->gravity_y, p->gravity_z);
+#endif
+}
 
 // The wall's velocity at the point (x, y, z) of it.
 INLINE vector_t wall_velocity(const walls_t* walls, int s, vector_t normal, real x, real y, real z) {
 #if MOVING_WALLS
-  __global const real* motion = walls->motions + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s);
+  __global const real* motion = MOTION_OF(walls, s);
   const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
   const vector_t turn = cross3(motion_vector(motion, 2), arm);
   const vector_t belt = motion_vector(motion, 5);
@@ -231,11 +250,11 @@ INLINE vector_t wall_velocity(const walls_t* walls, int s, vector_t normal, real
 #endif
 }
 
-// Gravity as the wall at the point (x, y, z) feels it: less the wall's acceleration.
-INLINE vector_t gravity_at_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
-  vector_t g = make_vector(p->gravity_x, p->gravity_y, p->gravity_z);
+// Gravity as fluid of the given velocity feels it that stays on the wall at the point (x, y, z): less the wall's acceleration.
+INLINE vector_t gravity_at_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, vector_t velocity) {
+  vector_t g = gravity_at(p, walls, x, y, z, velocity);
 #if MOVING_WALLS
-  __global const real* motion = walls->motions + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s);
+  __global const real* motion = MOTION_OF(walls, s);
   const vector_t arm = make_vector(x - motion[0], y - motion[1], z - motion[2]);
   const vector_t spin = motion_vector(motion, 2);
   const vector_t turn = cross3(motion_vector(motion, 4), arm);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <vector>
+
+#include "wavetank/node/body_inbox.h"
+#include "wavetank/simulation/simulation.h"
+
+namespace wavetank {
+
+/// Listens for wrenches on free bodies and velocities of commanded ones, the tank included, and hands them to the simulation.
+class BodyInputs {
+ public:
+  /// wrench_timeout: s of simulated time for which a wrench is held; 0 = until it is replaced.
+  BodyInputs(ros::NodeHandle& private_handle, const Case& checked, double wrench_timeout);
+  BodyInputs(const BodyInputs&) = delete;
+  BodyInputs& operator=(const BodyInputs&) = delete;
+
+  /// Before a step, in the solver's thread: what has come since the last one.
+  void apply(Simulation& simulation);
+  /// Forgets what has not been applied.
+  void clear() { inbox_.take(); }
+
+ private:
+  /// `read` makes of a message what goes into the inbox, or throws Error.
+  template <class Message, class Read>
+  void listen(ros::NodeHandle& private_handle, const std::string& topic, std::size_t owner, Read read);
+
+  double wrench_timeout_;
+  BodyInbox inbox_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace wavetank

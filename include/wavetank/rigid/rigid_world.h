@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wavetank/geometry/layout.h"
+#include "wavetank/rigid/mass_properties.h"
+#include "wavetank/rigid/rigid_state.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+/// A force and a torque about a body's centre of mass, N and N·m (2-D: N/m and N), in the world's axes.
+struct RigidLoad {
+  Vector3d force = Vector3d::Zero();
+  Vector3d torque = Vector3d::Zero();
+};
+
+/// A wrench from outside (a thruster, a mooring): held until replaced, or until `until`.
+struct OutsideWrench {
+  Vector3d force = Vector3d::Zero();   ///< N (2-D: N/m)
+  Vector3d torque = Vector3d::Zero();  ///< N·m, about the centre of mass
+  bool turns_with_body = true;         ///< in the body's axes; else in the world's
+  double until = 1e300;                ///< s of simulated time
+};
+
+struct JointState {
+  double position = 0;  ///< m or rad from the start, of hinge, slider and spring (its length); 0 for the others
+  double velocity = 0;  ///< m/s or rad/s
+  double effort = 0;    ///< N or N·m, of its spring and damper
+};
+
+/// The tank (0) and the bodies (1 + i) as rigid bodies in Bullet, in the world's inertial axes, which are the case's coordinates at t = 0.
+/// A step depends on nothing but what save() returns: Bullet's own memory of contacts is cleared before each, so that a restored run goes
+/// on bit for bit.
+class RigidWorld {
+ public:
+  /// Throws Error for mass properties that cannot be, prescribed motions that cannot be read, joints that do not fit. Says once, through
+  /// the log, where a collision shape is an approximation and by how much (volume).
+  RigidWorld(const Case& settled_case, const Layout& layout, const ResourceResolver& resolve = {});
+  ~RigidWorld();
+
+  std::size_t count() const;            ///< of owners: 1 + bodies
+  bool moves(std::size_t owner) const;  ///< its motion is not fixed
+  bool anything_moves() const;
+  bool is_free(std::size_t owner) const;
+  const MassProperties& properties(std::size_t owner) const;  ///< of bodies that are not free: mass 0 unless given, centre all the same
+  const Vector3d& reference(std::size_t owner) const;         ///< the reference point as the case's geometry has it
+  RigidState state(std::size_t owner) const;                  ///< in the world
+  /// The same relative to the tank, in the tank's axes: as the fluid, which is solved there, sees it.
+  RigidState state_in_tank(std::size_t owner) const;
+
+  /// States after half of the step from `time`, with the present velocities; leaves the world as it is.
+  std::vector<RigidState> at_middle(double time, double time_step) const;
+  /// One step; `fluid`: one load an owner, in the world's axes; those of bodies that are not free are not used.
+  void advance(double time, double time_step, const std::vector<RigidLoad>& fluid);
+
+  /// Throws Error for a body that is not free, or a value that is not finite.
+  void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
+  /// Throws Error for a body that is not commanded, or a value that is not finite. In the body's axes.
+  void command(std::size_t owner, double time, const Vector3d& velocity, const Vector3d& angular_velocity);
+
+  std::size_t joint_count() const;
+  JointState joint_state(std::size_t joint) const;
+
+  /// Kinetic energy, and potential about the case's origin, of the free bodies, J (2-D: J/m).
+  double kinetic_energy() const;
+  double potential_energy() const;
+
+  std::vector<char> save() const;
+  /// Throws Error if the bytes are not those of this world.
+  void restore(const std::vector<char>& bytes);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace wavetank

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "free_motion.h"
+#include "impulse_solver.h"
+#include "wavetank/rigid/rigid_world.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank {
+
+/// An end of a joint: what it moves with, and the reference point of that as the case's geometry has it.
+struct JointEnd {
+  int frame = 0;  ///< an owner, or the world, which comes after the last
+  Vector3d reference = Vector3d::Zero();
+};
+
+/// The bodies at the start, the middle and the end of a step, as far as known before it: free ones moved on at their present velocities.
+struct StepStates {
+  std::vector<RigidState> start, middle, end;  ///< by frame
+};
+
+/// A joint as rows for the solver and, for its spring and damper, as loads.
+/// Its rows hold at the end of the step and act along where they are at its middle, which keeps a mechanism's energy to second order.
+class Joint {
+ public:
+  /// Throws Error where the joint's numbers do not fit each other.
+  Joint(const JointCase& joint, const JointEnd& child, const JointEnd& parent, int dimensions);
+
+  int child() const { return child_.frame; }
+  int parent() const { return parent_.frame; }
+  void add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, double correction,
+                std::vector<JointRow>& rows) const;
+  /// Adds the forces of its spring and damper. Implicit in the joint's own motion, so that no stiffness or damping is unstable by itself.
+  void add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, std::vector<RigidLoad>& loads) const;
+
+  JointState state(const std::vector<RigidState>& states) const;
+  /// Counts a hinge's turns; to be called after every step.
+  void follow(const std::vector<RigidState>& states);
+
+  double angle = 0;  ///< rad, of a hinge at the last step: all that a joint remembers
+
+ private:
+  /// A coordinate of the child relative to the parent and how it answers to velocities.
+  struct Coordinate {
+    double value = 0;
+    Vector3d linear = Vector3d::Zero(), angular_child = Vector3d::Zero(), angular_parent = Vector3d::Zero();
+    double rate(const RigidState& child, const RigidState& parent) const;
+  };
+  /// What is asked of a coordinate: locked where the limits are equal.
+  struct Bounds {
+    double least = 0, greatest = 0;
+    bool locked() const { return least == greatest; }
+  };
+
+  Coordinate along(const Vector3d& direction, const std::vector<RigidState>& states) const;  ///< fixed to the parent
+  Coordinate tilt(const Vector3d& direction, const std::vector<RigidState>& states) const;   ///< of a hinge's axis
+  std::array<Coordinate, 3> rotations(const std::vector<RigidState>& states) const;          ///< roll, pitch, yaw
+  std::array<Coordinate, 3> turns(const std::vector<RigidState>& states) const;              ///< small, about the axes
+  Coordinate stretched(const std::vector<RigidState>& states) const;                         ///< a spring's length
+  Coordinate free_one(const std::vector<RigidState>& states) const;                          ///< of hinge and slider
+  std::vector<Coordinate> bounded(const std::vector<RigidState>& states, const Eigen::Matrix3d& axes) const;
+  Eigen::Matrix3d settled_axes(const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
+  double answer(const Coordinate& a, const Coordinate& b, const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
+  double free_mobility(const Coordinate& coordinate, const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
+
+  JointCase joint_;
+  JointEnd child_, parent_;
+  int dimensions_;
+  Vector3d axis_ = Vector3d::UnitY();
+  double length_ = 0;           ///< m, of a spring unstretched
+  std::vector<Bounds> bounds_;  ///< of bounded()
+};
+
+}  // namespace wavetank

@@ -1,0 +1,124 @@
+#include "motion_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+#include "number_text.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const char* const blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Commas between quotes do not separate.
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> values(1);
+  bool quoted = false;
+  for (const char letter : line) {
+    if (letter == '"') quoted = !quoted;
+    if (letter == ',' && !quoted) {
+      values.emplace_back();
+    } else {
+      values.back() += letter;
+    }
+  }
+  for (std::string& value : values) {
+    value = trimmed(value);
+    if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = trimmed(value.substr(1, value.size() - 2));
+  }
+  return values;
+}
+
+/// The same whatever language the process is set to.
+std::optional<double> number(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0;
+  if (!(stream >> value) || stream.peek() != std::istringstream::traits_type::eof() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+MotionRecord::MotionRecord(const std::string& path, const std::string& what) : path_(path), what_(what) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(place(0) + " cannot be read");
+  int line = 0;
+  for (std::string text; std::getline(file, text);) {
+    if (++line == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // some spreadsheets' byte-order mark
+    text = trimmed(text);
+    if (text.empty() || text.front() == '#') continue;
+    if (names_.empty()) {
+      names_ = split(text);
+      header_line_ = line;
+      continue;
+    }
+    rows_.push_back({line, split(text)});
+    if (rows_.back().values.size() != names_.size()) {
+      throw Error(place(line) + " has " + std::to_string(rows_.back().values.size()) + " values, where the header in line " +
+                  std::to_string(header_line_) + " names " + std::to_string(names_.size()) + " columns");
+    }
+  }
+  if (names_.empty()) throw Error(place(0) + " has no header line with the columns' names");
+  if (rows_.size() < 2) {
+    throw Error(place(0) + " has " + std::to_string(rows_.size()) + (rows_.size() == 1 ? " line" : " lines") +
+                " of values after its header; a motion takes at least two");
+  }
+}
+
+std::string MotionRecord::place(int line) const {
+  return what_ + ": motion record file '" + path_ + "'" + (line > 0 ? ", line " + std::to_string(line) + "," : "");
+}
+
+bool MotionRecord::has(const std::string& column) const { return std::find(names_.begin(), names_.end(), column) != names_.end(); }
+
+std::string MotionRecord::listed_columns() const {
+  std::string list;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    if (k > 0) list += k + 1 < names_.size() ? ", " : " and ";
+    list += "'" + names_[k] + "'";
+  }
+  return list;
+}
+
+std::size_t MotionRecord::index_of(const std::string& column) const {
+  const auto found = std::find(names_.begin(), names_.end(), column);
+  if (found == names_.end()) throw Error(place(header_line_) + " names no column '" + column + "'; it names " + listed_columns());
+  if (std::find(found + 1, names_.end(), column) != names_.end())
+    throw Error(place(header_line_) + " names the column '" + column + "' twice");
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+std::vector<double> MotionRecord::numbers(const std::string& column) const {
+  const std::size_t index = index_of(column);
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (const Row& row : rows_) {
+    const std::optional<double> value = number(row.values[index]);
+    if (!value) throw Error(place(row.line) + " column '" + column + "': '" + row.values[index] + "' is not a finite number");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<double> MotionRecord::times(const std::string& column) const {
+  std::vector<double> values = numbers(column);
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (!(values[k] > values[k - 1])) {
+      throw Error(place(rows_[k].line) + " column '" + column + "': the time " + number_text(values[k]) + " s does not come after " +
+                  number_text(values[k - 1]) + " s; times must increase from line to line");
+    }
+  }
+  return values;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wavetank {
+
+/// A file of comma-separated values: a header line with the columns' names, then lines of as many values. Lines that are empty or start
+/// with # do not count; spaces around names and values and quotes ("") around them are dropped.
+class MotionRecord {
+ public:
+  /// `what` opens the messages. Throws Error for a file that cannot be read, has no header or fewer than two lines of values, or a line of
+  /// another number of values than the header.
+  MotionRecord(const std::string& path, const std::string& what);
+
+  const std::vector<std::string>& columns() const { return names_; }
+  bool has(const std::string& column) const;
+  /// Throws Error for a column that is not there or there twice, and for a value that is not a finite number, with its line.
+  std::vector<double> numbers(const std::string& column) const;
+  /// The same; also throws for times that do not increase.
+  std::vector<double> times(const std::string& column) const;
+  /// "'time', 'surge' and 'heave'"
+  std::string listed_columns() const;
+
+  /// Opens a message: what, file and line (0: the whole file).
+  std::string place(int line) const;
+
+ private:
+  struct Row {
+    int line;  ///< in the file, from 1
+    std::vector<std::string> values;
+  };
+  std::size_t index_of(const std::string& column) const;
+
+  std::string path_, what_;
+  int header_line_ = 0;
+  std::vector<std::string> names_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace wavetank

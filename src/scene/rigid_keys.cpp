@@ -1,0 +1,180 @@
+#include "rigid_keys.h"
+
+#include "mesh_keys.h"
+#include "motion_keys.h"
+#include "motion_values.h"
+
+namespace wavetank::scene {
+namespace {
+
+Section<ForceCase> force_section() {
+  Section<ForceCase> section;
+  section.key("force", &ForceCase::force, vector_in_plane(), "N", "In 2-D a metre of width (N/m), without a y component.");
+  section.key("torque", &ForceCase::torque, vector_about(), "N·m", "In 2-D a metre of width (N), a number about y or [0, y, 0].");
+  section.key("point", &ForceCase::point, if_given(position()), "m",
+              "Of the body at the start, where the force acts; if it is left out, the centre of mass.");
+  section.key("turns_with_body", &ForceCase::turns_with_body, flag(), "",
+              "Whether force and torque keep their direction in the body, as a thruster's, not in the world.");
+  section.key("from", &ForceCase::from, number(at_least(0)), "s", "When it begins.");
+  section.key("to", &ForceCase::to, number_if_given(greater_than(0)), "s",
+              "When it ends, later than `from`; if it is left out, with the simulation.");
+  section.key("frequency", &ForceCase::frequency, number(at_least(0)), "Hz",
+              "Of a harmonic force: times sin(2π f (t − from) + φ); 0 = constant.");
+  section.key("phase", &ForceCase::phase, angle(), "°", "φ of a harmonic force.");
+  section.rule([](const ForceCase& force, const Setting& map, const std::string& path, const Context&) {
+    if (force.force.isZero(0.0) && force.torque.isZero(0.0))
+      throw Error(map.place.describe() + ": " + path + " has neither a force nor a torque; give at least one that is not 0");
+    if (force.to && *force.to <= force.from) refuse(*map.find("to"), {join_path(path, "to"), "s"}, "later than " + join_path(path, "from"));
+    if (force.phase != 0 && force.frequency == 0)
+      refuse_key(map, path, "phase", "is for harmonic forces only; leave it out, or give " + join_path(path, "frequency"));
+  });
+  return section;
+}
+
+Section<MooringCase> mooring_section() {
+  Section<MooringCase> section;
+  section
+      .key("anchor", &MooringCase::anchor, position(), "m",
+           "The fixed end: of a body's mooring it moves with the tank, of the tank's own it stands in the world.")
+      .required = true;
+  section.key("attachment", &MooringCase::attachment, position(), "m", "The other end, where it is at the start; moves with the body.")
+      .required = true;
+  section.key("stiffness", &MooringCase::stiffness, number(at_least(0)), "N/m", "In 2-D a metre of width (N/m²).").required = true;
+  section.key("damping", &MooringCase::damping, number(at_least(0)), "N·s/m", "Along the line; in 2-D a metre of width (N·s/m²).");
+  section.key("length", &MooringCase::length, number_if_given(at_least(0)), "m",
+              "Unstretched; if it is left out, the distance of the ends at the start.");
+  section.key("slack", &MooringCase::slack, flag(), "", "Whether it pulls only, as a rope; else it pushes too.");
+  return section;
+}
+
+Section<MeshSource> collision_part_section() {
+  Section<MeshSource> section;
+  declare_mesh_keys([&](auto... key) -> KeyDescription& { return section.key(key...); });
+  return section;
+}
+
+template <class T>
+constexpr bool is_tank = std::is_same_v<T, TankCase>;
+
+// As a member of the whole tank or body.
+template <class Member>
+auto of_rigid(Member member) {
+  return [member](auto& target) -> auto& { return target.rigid.*member; };
+}
+
+template <class T>
+void add_mass_keys(Section<T>& section) {
+  const std::string whose = is_tank<T> ? "Of the tank without the water, needed if it is free" : "Of a free body, or else its density";
+  section.key("mass", of_rigid(&RigidCase::mass), number_if_given(greater_than(0)), "kg", whose + "; in 2-D a metre of width (kg/m).");
+  if constexpr (!is_tank<T>) {  // walls have no volume
+    section.key("density", of_rigid(&RigidCase::density), number_if_given(greater_than(0)), "kg/m³",
+                "Of a free body, of the volume that it encloses, or else its mass.");
+  }
+  section.key("centre_of_mass", of_rigid(&RigidCase::centre_of_mass), if_given(position()), "m",
+              "At the start; if it is left out, the centre of volume.");
+  section.key(
+      "inertia", of_rigid(&RigidCase::inertia), if_given(inertia()), "kg·m²",
+      "About the centre of mass; if it is left out, that of uniform density. In 2-D only yy counts (kg·m), and may be given alone.");
+}
+
+template <class T>
+void add_collision_keys(Section<T>& section) {
+  section.key("friction", of_rigid(&RigidCase::friction), number(at_least(0)), "",
+              "Coulomb's coefficient; of two in contact, the root of the product.");
+  section.key("restitution", of_rigid(&RigidCase::restitution), number(between(0, 1)), "",
+              "Speed after over before an impact; of two in contact, the greater.");
+  if constexpr (is_tank<T>) {
+    section.key("collision", of_rigid(&RigidCase::collision),
+                choice<CollisionShape>(
+                    {{"automatic", CollisionShape::automatic}, {"parts", CollisionShape::parts}, {"none", CollisionShape::none}}),
+                "", "What stands for the tank in contacts: its walls, the convex hulls of `collision_parts`, or nothing.");
+  } else {
+    section.key(
+        "collision", of_rigid(&RigidCase::collision),
+        choice<CollisionShape>({{"automatic", CollisionShape::automatic},
+                                {"convex_hull", CollisionShape::convex_hull},
+                                {"decomposition", CollisionShape::decomposition},
+                                {"parts", CollisionShape::parts},
+                                {"none", CollisionShape::none}}),
+        "",
+        "What stands for the body in contacts: `automatic` is a box's box and a mesh's convex hull or, where that fills too much, a "
+        "decomposition into convex parts; `parts` are the convex hulls of `collision_parts`; `none` passes through everything but "
+        "the fluid.");
+  }
+  section.key_where([](const T& whole) { return whole.rigid.collision == CollisionShape::parts; }, "collision_parts",
+                    of_rigid(&RigidCase::collision_parts), list_of(collision_part_section()), "",
+                    "Meshes for `collision: parts`, each placed by its own keys in the case's coordinates.");
+}
+
+// What else there is to say of a motion: written, and allowed, with that motion only.
+struct MotionKey {
+  const char* name;
+  Motion motion;
+};
+const MotionKey motion_keys[] = {{"velocity", Motion::free},     {"angular_velocity", Motion::free}, {"prescribed", Motion::prescribed},
+                                 {"command", Motion::commanded}, {"forces", Motion::free},           {"moorings", Motion::free}};
+
+template <class T>
+void add_motion_keys(Section<T>& section) {
+  const auto add = [&](const std::string& name, auto member, const auto& codec, const std::string& unit, const std::string& description) {
+    Motion motion{};
+    for (const MotionKey& key : motion_keys) {
+      if (name == key.name) motion = key.motion;
+    }
+    section.key_where([motion](const T& whole) { return whole.motion == motion; }, name, of_rigid(member), codec, unit, description);
+  };
+  add("velocity", &RigidCase::velocity, vector_in_plane(), "m/s", "Of the centre of mass at the start, if free.");
+  add("angular_velocity", &RigidCase::angular_velocity, vector_about(), "rad/s",
+      "At the start, if free; in 2-D also a number about y, or else [0, y, 0].");
+  add("prescribed", &RigidCase::prescribed, section_of(prescribed_section()), "", "The motion, if prescribed.");
+  add("command", &RigidCase::command, section_of(command_section()), "", "Limits on the motion, if commanded.");
+  add("forces", &RigidCase::forces, list_of(force_section()), "", "From outside, on what is free.");
+  add("moorings", &RigidCase::moorings, list_of(mooring_section()), "", "Lines that hold what is free: springs with dampers.");
+}
+
+void check_collision(const RigidCase& rigid, const Setting& map, const std::string& path) {
+  const bool by_parts = rigid.collision == CollisionShape::parts;
+  if (by_parts && rigid.collision_parts.empty())
+    refuse_key(map, path, "collision_parts", "is missing or empty; collision: parts needs a list of at least one mesh");
+  if (!by_parts && map.find("collision_parts") != nullptr)
+    refuse_key(map, path, "collision_parts",
+               "is for collision: parts only; leave it out, or set " + join_path(path, "collision") + " to parts");
+}
+
+template <class T>
+void check_rigid(const T& whole, const Setting& map, const std::string& path, const Context& context) {
+  const RigidCase& rigid = whole.rigid;
+  for (const MotionKey& key : motion_keys) {
+    if (whole.motion == key.motion || map.find(key.name) == nullptr) continue;
+    const std::string word = motion_word().write(key.motion, context)->text;
+    refuse_key(map, path, key.name, "is for motion: " + word + " only; leave it out, or set " + join_path(path, "motion") + " to " + word);
+  }
+  if (rigid.mass && rigid.density)
+    throw Error(map.find("density")->place.describe() + ": " + path + " has both mass and density; give exactly one of them");
+  if (whole.motion == Motion::free && !rigid.mass && !rigid.density) {
+    refuse_key(map, path, "mass",
+               is_tank<T> ? "is missing; a free tank needs its mass (kg)"
+                          : "is missing; a free body needs exactly one of mass (kg) and density (kg/m³)");
+  }
+  const PrescribedCase& prescribed = rigid.prescribed;
+  if (whole.motion == Motion::prescribed && prescribed.harmonics.empty() && prescribed.ramps.empty() && prescribed.records.empty())
+    refuse_key(map, path, "motion",
+               "is prescribed, but nothing prescribes it; give " + join_path(path, "prescribed") +
+                   " at least one of harmonics, ramps and records");
+  check_collision(rigid, map, path);
+}
+
+template <class T>
+void add_keys_and_rules(Section<T>& section) {
+  add_mass_keys(section);
+  add_motion_keys(section);
+  add_collision_keys(section);
+  section.rule(check_rigid<T>);
+}
+
+}  // namespace
+
+void add_rigid_keys(Section<TankCase>& section) { add_keys_and_rules(section); }
+void add_rigid_keys(Section<BodyCase>& section) { add_keys_and_rules(section); }
+
+}  // namespace wavetank::scene

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "wavetank/rigid/rigid_world.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// Carries the fluid's wrenches to the bodies and the bodies' motions to the fluid, in the course of each step.
+///
+/// A body's own momentum takes the fluid's force as it is, so that action is reaction. What the fluid is told of a free body's
+/// acceleration, for the pressure on its walls, follows that acceleration with a relaxation: the force answers to it at once, as an added
+/// mass M would, and where M is more than the body's own mass m the two would drive each other apart. With a' ← a' + θ (a − a'), θ = 1/(1 +
+/// M/m), each step cancels just that answer.
+class Coupling final : public WallMover {
+ public:
+  Coupling(RigidWorld& world, const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
+
+  std::vector<int> coupled() const override { return coupled_; }
+  WallMotions to_middle(double time_step) override;
+  WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) override;
+
+  /// The walls as the world has them now.
+  WallMotions now() const;
+  void set_time(double time) { time_ = time; }
+  /// The longest step in which the sound between the fluid and a free body does not grow, s; infinite without such bodies.
+  double longest_time_step() const { return longest_time_step_; }
+
+  std::vector<double> save() const;
+  void restore(const std::vector<double>& values);
+
+ private:
+  struct Felt {  ///< accelerations as the fluid is told them, in the world's axes
+    Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
+  };
+  WallMotions motions_of(const std::vector<RigidState>& states) const;
+  std::vector<RigidState> present() const;
+
+  RigidWorld& world_;
+  Vector3d gravity_;
+  bool tank_moves_;
+  std::vector<int> coupled_;
+  std::vector<Vector3d> belts_;
+  std::vector<double> relaxation_;  ///< θ of each owner
+  std::vector<Felt> felt_;
+  double longest_time_step_;
+  double time_ = 0;
+  Quaterniond tank_at_middle_ = Quaterniond::Identity();
+};
+
+}  // namespace wavetank

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "wall_arrays.h"
+#include "wall_cells.h"
+#include "wavetank/compute/program.h"
+
+namespace wavetank {
+
+/// Where an owner of walls is, from where the case's geometry has it: x' = rotation (x − rest) + place.
+struct WallPose {
+  Vector3d rest = Vector3d::Zero();   ///< m, a point of the owner
+  Vector3d place = Vector3d::Zero();  ///< m, where it has moved to
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+
+  Vector3d of(const Vector3d& point) const { return rotation * (point - rest) + place; }
+};
+
+/// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the neighbour grid's lists are made
+/// anew on the host, but only once a wall has moved by a part of the spacing since, by which the lists reach too far.
+template <class Real>
+class MovingWalls {
+ public:
+  /// `walls` as at rest; `moving`: of each owner.
+  MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const WallArrays<Real>& walls,
+              const std::vector<bool>& moving, const Discretisation& discretisation);
+
+  /// Moves the walls that were given to the constructor; one pose an owner.
+  void place(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
+
+  /// The poses that the lists were made for, which the order of sums depends on, as numbers; and back.
+  std::vector<double> listed() const;
+  void list_for(WallArrays<Real>& walls, const std::vector<double>& listed);
+
+ private:
+  void list(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
+  void move(WallArrays<Real>& walls, const std::vector<WallPose>& poses, bool resorted);
+  bool lists_hold(const std::vector<WallPose>& poses) const;
+  void list_facets(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
+  void sort_elements(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
+  Facet moved(const Facet& facet, const std::vector<WallPose>& poses) const;
+
+  compute::Device device_;
+  Discretisation discretisation_;
+  std::vector<int> moving_;     ///< walls of owners that move
+  std::vector<double> radius_;  ///< of each owner: of its farthest corner from the case's origin, m
+  std::vector<char> owner_moves_;
+  CellPairs still_;               ///< cells of the facets that stand
+  std::vector<WallPose> listed_;  ///< the poses that the lists were made for
+  int field_count_ = 0;
+  compute::Buffer<Real> rest_, poses_;
+  compute::Buffer<int> kinds_, slots_, from_, all_;
+  compute::Kernel place_;
+};
+
+}  // namespace wavetank

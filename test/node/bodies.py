@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+"""Bodies that move, as others see and push them: odometry, tf, joints, wrenches and velocities from topics, reset; and a tank that moves."""
+
+import math
+import statistics
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from ear import Ear
+from geometry_msgs.msg import Twist, WrenchStamped
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+from wavetank.msg import ProbeArray, WaveGaugeArray
+
+BOX = "/wavetank/bodies/box/odom"
+TROLLEY = "/wavetank/bodies/trolley/odom"
+CARRIAGE = "/carriage/bodies/tank/odom"
+TOPICS = {
+    BOX: Odometry,
+    TROLLEY: Odometry,
+    CARRIAGE: Odometry,
+    "/wavetank/bodies/box/wrench": WrenchStamped,
+    "/wavetank/joint_states": JointState,
+    "/wavetank/markers": MarkerArray,
+    "/wavetank/probes": ProbeArray,
+    "/wavetank/gauges": WaveGaugeArray,
+    "/tf": TFMessage,
+    "/tf_static": TFMessage,
+    "/rosout": Log,
+}
+PERIOD = 2000000  # ns of simulated time between poses
+CLOUD_PERIOD = 1.0 / 20.0  # s of wall time: rates/cloud, unless set
+CALM = 0.4  # s of simulated time before anything is pushed
+PUSH = 30.0  # N per metre of width; the box weighs 9.6 kg a metre, and the water that goes with it about as much
+WRENCH_TIMEOUT = 0.2  # s of simulated time, as in bodies.test
+
+
+def seconds(message):
+    return message.header.stamp.to_nsec() * 1e-9
+
+
+def speed(odometry):
+    return odometry.twist.twist.linear.x
+
+
+def wrench(force, frame=""):
+    message = WrenchStamped()
+    message.header.frame_id = frame
+    message.wrench.force.x = force
+    return message
+
+
+def twist(velocity):
+    message = Twist()
+    message.linear.x = velocity
+    return message
+
+
+def numbers(pose):
+    at, turn = pose.position, pose.orientation
+    return (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
+
+
+class Bodies(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("bodies_test")
+        cls.services = {}
+        for node in ("wavetank", "carriage"):
+            for name, kind in (("pause", SetBool), ("step", Trigger), ("reset", Trigger)):
+                rospy.wait_for_service("/%s/%s" % (node, name), 60.0)
+                cls.services[node, name] = rospy.ServiceProxy("/%s/%s" % (node, name), kind, persistent=True)
+        cls.call("pause", True, node="carriage")
+        cls.push = cls.advertise("/wavetank/bodies/box/external_wrench", WrenchStamped)
+        cls.drive = cls.advertise("/wavetank/bodies/trolley/cmd_vel", Twist)
+        cls.pull = cls.advertise("/carriage/bodies/tank/cmd_vel", Twist)
+        cls.ear = Ear(TOPICS)
+        cls.ear.wait(lambda: cls.ear.all(BOX) and cls.time() > CALM, "%g s of simulated time" % CALM)
+
+    @classmethod
+    def call(cls, name, *arguments, node="wavetank"):
+        answer = cls.services[node, name](*arguments)
+        assert answer.success, answer.message
+
+    @staticmethod
+    def advertise(topic, kind):
+        publisher = rospy.Publisher(topic, kind, queue_size=1, tcp_nodelay=True)
+        Ear.wait(lambda: publisher.get_num_connections() > 0, "a listener on " + topic)
+        return publisher
+
+    @classmethod
+    def time(cls):
+        """Simulated, of the last pose that was heard."""
+        return seconds(cls.ear.last(BOX))
+
+    def run_until(self, end):
+        self.call("pause", False)
+        self.ear.wait(lambda: self.time() >= end, "%g s of simulated time" % end)
+        self.call("pause", True)
+        self.let_messages_arrive()
+
+    @staticmethod
+    def let_messages_arrive():
+        time.sleep(0.3)
+
+    def acceleration(self, duration):
+        """Mean, over a duration of simulated time from now, of a paused simulation."""
+        first = self.ear.last(BOX)
+        self.let_messages_arrive()  # what was sent, at the node
+        self.run_until(seconds(first) + duration)
+        last = self.ear.last(BOX)
+        return (speed(last) - speed(first)) / (seconds(last) - seconds(first))
+
+    def warnings(self, about):
+        return [log.msg for log in self.ear.all("/rosout") if log.name == "/wavetank" and log.level >= Log.WARN and about in log.msg]
+
+    def test_01_every_pose_comes_once_with_its_own_stamp(self):
+        count = round(CALM * 1e9 / PERIOD)
+        expected = [i * PERIOD for i in range(count)]
+        for topic in (BOX, TROLLEY, "/wavetank/joint_states"):
+            self.assertEqual(self.ear.stamps(topic)[:count], expected, topic)
+        for frame in ("tank/bodies/box", "tank/bodies/trolley"):
+            self.assertEqual([t.header.stamp.to_nsec() for t in self.transforms(frame)][:count], expected, frame)
+
+    def transforms(self, frame):
+        return [t for message in self.ear.all("/tf") for t in message.transforms if t.child_frame_id == frame]
+
+    def test_02_odometry_begins_where_the_case_has_the_body(self):
+        first = self.ear.all(BOX)[0]
+        self.assertEqual((first.header.frame_id, first.child_frame_id), ("tank", "tank/bodies/box"))
+        for number, expected in zip(numbers(first.pose.pose), (0.4, 0, 0.24, 0, 0, 0, 1)):
+            self.assertAlmostEqual(number, expected, 9)
+        # It is made to float so: in the calm it may settle by no more than the spacing of the particles.
+        self.assertLess(abs(self.ear.last(BOX).pose.pose.position.z - 0.24), 0.02)
+
+    def test_03_transforms_say_what_odometry_says(self):
+        poses = {odometry.header.stamp.to_nsec(): numbers(odometry.pose.pose) for odometry in self.ear.all(BOX)}
+        compared = 0
+        for transform in self.transforms("tank/bodies/box"):
+            if transform.header.stamp.to_nsec() not in poses:  # the very last one
+                continue
+            self.assertEqual(transform.header.frame_id, "tank")
+            at, turn = transform.transform.translation, transform.transform.rotation
+            self.assertEqual((at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w), poses[transform.header.stamp.to_nsec()])
+            compared += 1
+        self.assertGreater(compared, 100)
+        static = {t.child_frame_id for message in self.ear.all("/tf_static") for t in message.transforms}
+        self.assertEqual(static, {"tank/probes/P1", "tank/bodies/step"}, "only what does not move")
+
+    def test_04_wrench_markers_and_joints(self):
+        self.assertEqual(self.ear.last("/wavetank/bodies/box/wrench").header.frame_id, "tank/bodies/box")
+        frames = {marker.id: marker.header.frame_id for marker in self.ear.last("/wavetank/markers").markers if marker.ns == "bodies"}
+        self.assertEqual(frames, {0: "tank/bodies/box", 1: "tank/bodies/trolley", 2: "tank"})
+        joints = self.ear.all("/wavetank/joint_states")[0]
+        self.assertEqual(joints.name, ["fender"])
+        self.assertAlmostEqual(joints.position[0], 0.32, 9, "a spring's length")
+
+    def test_05_a_wrench_shows_in_the_odometry_within_a_cloud_period(self):
+        calm = [speed(odometry) for odometry in self.ear.all(BOX)[-50:]]
+        before, noise = statistics.mean(calm), statistics.pstdev(calm)
+        change = max(0.01, 6.0 * noise)  # m/s
+        sent = time.time()
+        self.push.publish(wrench(2.0 * PUSH))
+        already = len(self.ear.all(BOX))
+
+        def moved():
+            return next((i for i, o in enumerate(self.ear.all(BOX)[already:], already) if speed(o) - before > change), None)
+
+        self.ear.wait(lambda: moved() is not None, "the box moves", 10)
+        delay = self.ear.times(BOX)[moved()] - sent
+        print("first effect of a wrench %.1f ms of wall time after it was sent (noise %.2g m/s)" % (1e3 * delay, noise))
+        self.assertLess(delay, CLOUD_PERIOD)
+
+    def test_06_a_controller_at_100_hz_brings_the_box_to_its_goal_and_keeps_it(self):
+        goal, tolerance = 0.7, 0.03  # m; the tolerance is a tenth of the way, and the waves that the box makes push it about
+        arrived_at = None
+        end = time.time() + 90
+        while time.time() < end:
+            box = self.ear.last(BOX)
+            error = goal - box.pose.pose.position.x
+            # Half the critical damping of the box and as much water with it on the spring, and the water's own.
+            self.push.publish(wrench(60.0 * error - 40.0 * speed(box), "tank"))
+            if abs(error) > tolerance:
+                arrived_at = None
+            elif arrived_at is None:
+                arrived_at = seconds(box)
+            elif seconds(box) - arrived_at > 1.0:
+                break
+            time.sleep(0.01)
+        print("at the goal from %s s of simulated time" % arrived_at)
+        self.assertIsNotNone(arrived_at, "the box is %.3f m from its goal" % error)
+        self.assertGreater(seconds(box) - arrived_at, 1.0)
+
+    def test_07_only_sound_wrenches_act_and_each_until_its_timeout(self):
+        self.call("pause", True)
+        self.let_messages_arrive()
+        self.run_until(self.time() + WRENCH_TIMEOUT)  # the controller's last is over
+        rest = self.acceleration(0.02)
+        for frame in ("", "tank/bodies/box", "tank", "world"):
+            self.push.publish(wrench(PUSH, frame))
+            forwards = self.acceleration(0.02)
+            self.push.publish(wrench(-PUSH, frame))
+            backwards = self.acceleration(0.02)
+            self.assertGreater(forwards - rest, 0.5, frame)
+            self.assertLess(backwards - rest, -0.5, frame)
+        self.push.publish(wrench(PUSH))
+        pushed = self.acceleration(0.02)
+        for _ in range(20):
+            self.push.publish(wrench(math.nan))
+            self.push.publish(wrench(-math.inf))
+            time.sleep(0.01)
+        self.assertGreater(self.acceleration(0.02), 0.5 * pushed, "the wrench before stays")
+        self.push.publish(wrench(-100.0 * PUSH, "map"))
+        self.assertGreater(self.acceleration(0.02), 0.5 * pushed, "the wrench before stays")
+        self.run_until(self.time() + WRENCH_TIMEOUT)
+        self.assertLess(self.acceleration(0.02), 0.3 * pushed, "after the timeout")
+
+    def test_08_what_is_refused_is_said_once(self):
+        self.assertEqual(self.warnings("NaN"),
+                         ["/wavetank/bodies/box/external_wrench: a wrench with a NaN or an infinite value is ignored: the one before stays"])
+        self.assertEqual(self.warnings("'map'"), [
+            "/wavetank/bodies/box/external_wrench: a wrench in frame 'map' is ignored: its frame_id must be 'tank/bodies/box', 'tank', 'world' or "
+            "empty, which means the body's own"
+        ])
+
+    def test_09_a_commanded_body_follows_brakes_at_its_timeout_and_is_driven_while_paused(self):
+        first = self.ear.last(TROLLEY)
+        self.assertEqual(first.child_frame_id, "tank/bodies/trolley")
+        self.drive.publish(twist(0.3))
+        time.sleep(0.1)
+        self.drive.publish(twist(math.nan))
+        self.let_messages_arrive()
+        self.run_until(self.time() + 0.4)
+        drive = [odometry for odometry in self.ear.all(TROLLEY) if seconds(odometry) > seconds(first)]
+        self.assertAlmostEqual(max(speed(odometry) for odometry in drive), 0.3, 6)
+        self.assertAlmostEqual(speed(drive[-1]), 0.0, 6)
+        # At 10 m/s² up to 0.3 m/s in 0.03 s, on until 0.2 s have passed, and down again: 0.06 m, to within a few steps of a millisecond.
+        way = drive[-1].pose.pose.position.x - first.pose.pose.position.x
+        self.assertAlmostEqual(way, 0.06, delta=0.002)
+        self.assertEqual(len(self.warnings("a velocity with a NaN")), 1)
+
+    def test_10_who_listens_to_a_paused_tank_gets_the_last_poses(self):
+        heard = []
+        subscriber = rospy.Subscriber("/tf", TFMessage, lambda message: heard.extend(message.transforms))
+        self.ear.wait(lambda: any(t.child_frame_id == "tank/bodies/box" for t in heard), "the last pose", 5)
+        subscriber.unregister()
+        box = next(t for t in heard if t.child_frame_id == "tank/bodies/box")
+        self.assertEqual(box.header.stamp, self.ear.last(BOX).header.stamp)
+
+    def test_11_reset_brings_the_bodies_back_and_the_run_repeats_itself(self):
+        poses = self.ear.all(BOX)
+        last = seconds(poses[-1])
+        self.push.publish(wrench(100.0 * PUSH))  # to be forgotten
+        self.let_messages_arrive()
+        self.call("reset")
+        self.let_messages_arrive()
+        again = self.ear.all(BOX)[len(poses):]
+        self.assertEqual(len(again), 1)
+        self.assertEqual(seconds(again[0]), math.floor(last) + 1.0, "stamps go on")
+        self.run_until(math.floor(last) + 1.1)
+        again = self.ear.all(BOX)[len(poses):]
+        for first, second in zip(poses[:50], again[:50]):
+            self.assertEqual(numbers(first.pose.pose), numbers(second.pose.pose))
+            self.assertEqual(first.twist, second.twist)
+        self.assertGreaterEqual(len(again), 50)
+
+    def test_12_a_tank_is_driven_through_the_world(self):
+        heard = len(self.ear.all(CARRIAGE))
+        self.call("reset", node="carriage")
+        self.ear.wait(lambda: len(self.ear.all(CARRIAGE)) > heard, "the first pose after a reset")
+        first = self.ear.last(CARRIAGE)
+        self.assertEqual((first.header.frame_id, first.child_frame_id), ("world", "basin"))
+        self.assertEqual(numbers(first.pose.pose), (0, 0, 0, 0, 0, 0, 1))
+        self.call("pause", False, node="carriage")
+        end = time.time() + 60
+        while seconds(self.ear.last(CARRIAGE)) < seconds(first) + 0.3 and time.time() < end:
+            self.pull.publish(twist(0.4))
+            time.sleep(0.01)
+        self.call("pause", True, node="carriage")
+        self.let_messages_arrive()
+        last = self.ear.last(CARRIAGE)
+        self.assertAlmostEqual(speed(last), 0.4, 6)
+        # At 2 m/s² up to 0.4 m/s: 0.1 s of the way are lost; sending and the first step take their time.
+        expected = 0.4 * (seconds(last) - seconds(first) - 0.1)
+        self.assertAlmostEqual(last.pose.pose.position.x, expected, delta=0.03)
+        transform = self.transforms("basin")[-1]
+        self.assertEqual(transform.header.frame_id, "world")
+        self.assertEqual(transform.header.stamp, last.header.stamp)
+        self.assertEqual(transform.transform.translation.x, last.pose.pose.position.x)
+
+    def test_13_the_node_is_still_alive(self):
+        before = self.time()
+        self.run_until(before + 0.02)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("wavetank", "bodies", Bodies, sys.argv)
