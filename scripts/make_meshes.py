@@ -93,7 +93,7 @@ def hull(length, beam, depth, stations):
 
     x forwards, y to port, z up from the keel. Forward of half its length the chine runs in and up, and the keel rises to the stem.
     """
-    chine = 0.5 * depth
+    chine = 0.65 * depth
 
     def section(x):
         """Half the beam at the deck and at the chine, and the heights of chine and keel."""
@@ -150,6 +150,7 @@ def main():
         "wave_flume.stl": flume(profile=[(-0.6, 0), (4, 0), (10, 0.6)], rim=0.9, width=0.4),
         # A piston flume with its face at x = 1 m and a beach of 1 : 6 from x = 4 m on.
         "piston_flume.stl": flume(profile=[(0.6, 0), (4, 0), (7.3, 0.55)], rim=0.6, width=0.4),
+        "ball.stl": sphere(centre=(0, 0, 0), radius=0.5, subdivisions=2),  # few triangles: a body afloat costs time by its triangles
         "boat.stl": hull(length=0.7, beam=0.26, depth=0.14, stations=12),
     }
     for name, triangles in meshes.items():

@@ -47,6 +47,7 @@ if(TARGET wavetank_node)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
   endforeach()
+  add_test(NAME validation_compare_motion_test COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/compare_motion_test.py -v)
   file(GLOB live_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/node/*.test)
   foreach(live_test ${live_tests})
     add_rostest(${live_test})

@@ -11,9 +11,10 @@
 #include "mesh_file_access.h"
 #include "mesh_topology.h"
 #include "polygon.h"
+#include "shape_mesh.h"
 #include "wavetank/common/error.h"
-#include "wavetank/geometry/file_path.h"
 #include "wavetank/geometry/mesh.h"
+#include "wavetank/scene/file_path.h"
 
 namespace wavetank {
 namespace {
@@ -97,10 +98,7 @@ void merge_vertices(TriangleMesh& mesh, double tolerance) {
   mesh.vertices = std::move(kept);
 }
 
-}  // namespace
-
-TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve) {
-  const std::string path = file_path("mesh", source.uri, case_directory, resolve);
+TriangleMesh read_file(const std::string& path) {
   check_file("mesh", path);
 
   Assimp::Importer importer;
@@ -120,16 +118,31 @@ TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directo
   remove_degenerate_triangles(mesh);
   remove_duplicate_triangles(mesh);
   if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has only triangles of zero area");
+  return mesh;
+}
 
+void place(TriangleMesh& mesh, const MeshSource& source, const std::string& what) {
   const Eigen::Matrix3d rotation =
       (Eigen::AngleAxisd(source.rotation.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(source.rotation.y(), Vector3d::UnitY()) *
        Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX()))
           .toRotationMatrix();
   for (Vector3d& vertex : mesh.vertices) {
     vertex = rotation * (source.scale * vertex) + source.translation;
-    if (!vertex.allFinite())
-      throw Error("mesh file '" + path + "': its scale, rotation or translation makes vertices that are not finite numbers");
+    if (!vertex.allFinite()) throw Error(what + ": its scale, rotation or translation makes vertices that are not finite numbers");
   }
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve) {
+  if (is_shape(source.uri)) {
+    TriangleMesh mesh = shape_mesh(source.uri);
+    place(mesh, source, "mesh '" + source.uri + "'");
+    return mesh;
+  }
+  const std::string path = file_path("mesh", source.uri, case_directory, resolve);
+  TriangleMesh mesh = read_file(path);
+  place(mesh, source, "mesh file '" + path + "'");
   return mesh;
 }
 

@@ -41,7 +41,7 @@ void check_writable(const std::string& path) {
 BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
     : options_(options),
       interrupted_(interrupted),
-      case_(read_case_file(options.case_file, options.overrides)),
+      case_(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})),
       progress_(Progress::fitting(options.quiet), 0.0, case_.duration) {
   check_names(case_);
   if (!options_.save.empty()) check_writable(options_.save);

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "wavetank/common/error.h"
+#include "wavetank/node/resources.h"
 #include "wavetank/scene/case_reader.h"
 
 namespace wavetank {
@@ -127,6 +128,18 @@ void flatten(XmlRpcValue& group, const std::string& path, std::vector<Override>&
   }
 }
 
+/// What a case of the node can name: packages, and text parameters of the node's namespace or one above it.
+Surroundings surroundings_of(const ros::NodeHandle& private_handle) {
+  const auto parameter = [private_handle](const std::string& name) {
+    std::string path, text;
+    if (!private_handle.searchParam(name, path))
+      throw Error("there is no ROS parameter '" + name + "' in " + private_handle.getNamespace() + " or a namespace above it");
+    if (!private_handle.getParam(path, text)) throw Error("the ROS parameter " + path + " is not text");
+    return text;
+  };
+  return {resolve_resource, parameter};
+}
+
 }  // namespace
 
 std::string yaml_of(const XmlRpcValue& value) {
@@ -157,15 +170,16 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   take(parameters, "diagnostic_period");  // diagnostic_updater's own
   take(parameters, clock_reached);        // the node's own note
 
+  const Surroundings surroundings = surroundings_of(private_handle);
   if (!setup.parameters.case_file.empty()) {
     std::vector<Override> overrides;
     flatten(parameters, "", overrides);
-    setup.scene = read_case_file(setup.parameters.case_file, overrides);
+    setup.scene = read_case_file(setup.parameters.case_file, overrides, surroundings);
     return setup;
   }
   if (parameters.size() == 0)
     throw Error("there is no case under " + source + ": load one there with rosparam, or set " + source + "/case_file to its file");
-  setup.scene = read_case_text(yaml_of(parameters), source);
+  setup.scene = read_case_text(yaml_of(parameters), source, {}, surroundings);
   return setup;
 }
 

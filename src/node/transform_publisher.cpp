@@ -6,8 +6,8 @@ namespace wavetank {
 
 namespace {
 
-constexpr std::uint32_t queue = 100;                         // as tf2_ros::TransformBroadcaster has
-constexpr auto standstill = std::chrono::milliseconds(500);  ///< listeners warn of transforms that they get twice
+constexpr std::uint32_t queue = 100;                        ///< as tf2_ros::TransformBroadcaster has
+constexpr auto standstill = std::chrono::milliseconds(50);  ///< a listener warns of transforms that it gets twice
 
 }  // namespace
 

@@ -45,7 +45,7 @@ void list_devices() {
 }
 
 void check(const RunOptions& options) {
-  const Case checked = read_case_file(options.case_file, options.overrides);
+  const Case checked = read_case_file(options.case_file, options.overrides, {resolve_resource, {}});
   check_names(checked);
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;

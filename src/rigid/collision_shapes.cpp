@@ -61,11 +61,16 @@ class Shaper {
 
   std::vector<ConvexHull> hulls(const std::string& case_directory, const ResourceResolver& resolve) const {
     switch (request_.rigid->collision) {
-      case CollisionShape::none: return {};
-      case CollisionShape::convex_hull: return {spoken_of(whole())};
-      case CollisionShape::decomposition: return decomposed();
-      case CollisionShape::parts: return listed(case_directory, resolve);
-      case CollisionShape::automatic: break;
+      case CollisionShape::none:
+        return {};
+      case CollisionShape::convex_hull:
+        return {spoken_of(whole())};
+      case CollisionShape::decomposition:
+        return decomposed();
+      case CollisionShape::parts:
+        return listed(case_directory, resolve);
+      case CollisionShape::automatic:
+        break;
     }
     if (request_.is_box) return {whole()};
     ConvexHull hull = whole();
@@ -90,7 +95,8 @@ class Shaper {
   ConvexHull spoken_of(ConvexHull hull) const {
     const double more = excess(hull);
     if (more > 1e-6)
-      log(LogLevel::info, request_.what + " is its convex hull in contacts, which holds " + number_text(100 * more) + " % more than the body.");
+      log(LogLevel::info,
+          request_.what + " is its convex hull in contacts, which holds " + number_text(100 * more) + " % more than the body.");
     return hull;
   }
 

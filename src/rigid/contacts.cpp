@@ -161,7 +161,8 @@ void ContactFinder::find_on_walls(const Placed& placed, const std::vector<RigidS
     surface.find(PlacedHull(placed.part->hull, back * placed.turn, back * (placed.place - wall.position) + reference), reach_, found);
     std::vector<Contact> group;
     for (const WallContact& contact : found)
-      group.push_back(make(placed.owner, contact.owner, wall.moved(contact.point, reference), wall.orientation * contact.normal, contact.gap));
+      group.push_back(
+          make(placed.owner, contact.owner, wall.moved(contact.point, reference), wall.orientation * contact.normal, contact.gap));
     add(std::move(group), contacts);
   }
 }
@@ -206,7 +207,8 @@ void ContactFinder::add(std::vector<Contact> group, std::vector<Contact>& contac
     std::vector<Contact> distinct;
     for (const Contact& contact : others) {
       const double near = merge_of_spacing / reach_of_spacing * reach_;
-      const auto twin = std::find_if(distinct.begin(), distinct.end(), [&](const Contact& c) { return (c.point - contact.point).norm() < near; });
+      const auto twin =
+          std::find_if(distinct.begin(), distinct.end(), [&](const Contact& c) { return (c.point - contact.point).norm() < near; });
       if (twin == distinct.end()) {
         distinct.push_back(contact);
       } else if (contact.gap < twin->gap) {

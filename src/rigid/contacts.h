@@ -19,8 +19,8 @@ struct ContactBody {
   int frame = 0;                          ///< the owner that it moves with: itself, or the tank (0) where it is fixed
   Vector3d reference = Vector3d::Zero();  ///< m, as the case's geometry has it
   double friction = 0, restitution = 0;
-  bool as_walls = false;                  ///< its facets stand for it, exactly, hollows and all
-  std::vector<ConvexPart> parts;          ///< else these do
+  bool as_walls = false;          ///< its facets stand for it, exactly, hollows and all
+  std::vector<ConvexPart> parts;  ///< else these do
 };
 
 /// Finds all contacts of a moment anew: nothing is kept from one search to the next.

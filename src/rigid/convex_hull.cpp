@@ -95,8 +95,8 @@ class Quickhull {
 
   void take_in(int seen) {
     const Triangle& first = triangles_[seen];
-    const int top = *std::max_element(first.outside.begin(), first.outside.end(),
-                                      [&](int p, int q) { return height(first, p) < height(first, q); });
+    const int top =
+        *std::max_element(first.outside.begin(), first.outside.end(), [&](int p, int q) { return height(first, p) < height(first, q); });
     std::vector<int> visible, queue{seen}, left_over;
     triangles_[seen].alive = false;
     while (!queue.empty()) {
@@ -139,11 +139,13 @@ class Quickhull {
 };
 
 /// The border of a set of triangles as one loop; empty if it is not one.
-std::vector<int> border(const std::vector<Triangle>& triangles, const std::vector<int>& members, const std::vector<int>& face_of, int face) {
+std::vector<int> border(const std::vector<Triangle>& triangles, const std::vector<int>& members, const std::vector<int>& face_of,
+                        int face) {
   std::map<int, int> next;
   for (const int t : members)
     for (int k = 0; k < 3; ++k)
-      if (face_of[triangles[t].across[k]] != face && !next.emplace(triangles[t].corner[k], triangles[t].corner[(k + 1) % 3]).second) return {};
+      if (face_of[triangles[t].across[k]] != face && !next.emplace(triangles[t].corner[k], triangles[t].corner[(k + 1) % 3]).second)
+        return {};
   std::vector<int> loop;
   for (int at = next.begin()->first; loop.size() < next.size(); at = next.at(at)) {
     if (next.count(at) == 0 || (!loop.empty() && at == loop.front())) return {};

@@ -10,13 +10,13 @@ namespace wavetank {
 /// A convex polyhedron with everything that contacts ask of it.
 struct ConvexHull {
   struct Face {
-    std::vector<int> loop;                  ///< corners, anticlockwise seen from outside
-    Vector3d normal = Vector3d::Zero();     ///< unit, outwards
-    double offset = 0;                      ///< normal · x of its plane
+    std::vector<int> loop;               ///< corners, anticlockwise seen from outside
+    Vector3d normal = Vector3d::Zero();  ///< unit, outwards
+    double offset = 0;                   ///< normal · x of its plane
   };
   struct Edge {
-    int from = 0, to = 0;        ///< along the loop of `left`
-    int left = 0, right = 0;     ///< faces
+    int from = 0, to = 0;     ///< along the loop of `left`
+    int left = 0, right = 0;  ///< faces
   };
 
   std::vector<Vector3d> vertices;

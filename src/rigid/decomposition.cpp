@@ -2,40 +2,128 @@
 
 #include <HACD/hacdHACD.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "wavetank/common/error.h"
 
 namespace wavetank {
 namespace {
 
-constexpr int samples_across = 40;  // of the longest side, for the difference in volume
+constexpr std::size_t many_triangles = 2000;  // HACD's time grows with the square of their number: 1 s here
+constexpr double scale = 1000;                // that HACD takes the mesh's diagonal to
 
-bool holds(const ConvexHull& hull, const Vector3d& point) {
-  return std::all_of(hull.faces.begin(), hull.faces.end(),
-                     [&](const ConvexHull::Face& face) { return face.normal.dot(point) <= face.offset; });
+/// The mesh with the vertices of each cell of a grid taken together in one of them.
+TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
+  std::map<std::array<long, 3>, int> vertex_in;
+  std::vector<int> kept(mesh.vertices.size());
+  TriangleMesh coarse;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    std::array<long, 3> key;
+    for (int axis = 0; axis < 3; ++axis) key[axis] = std::lround(mesh.vertices[v][axis] / cell);
+    const auto [entry, is_new] = vertex_in.emplace(key, static_cast<int>(coarse.vertices.size()));
+    if (is_new) coarse.vertices.push_back(mesh.vertices[v]);
+    kept[v] = entry->second;
+  }
+  std::set<std::array<int, 3>> seen;
+  for (const Vector3i& triangle : mesh.triangles) {
+    const Vector3i corners(kept[triangle[0]], kept[triangle[1]], kept[triangle[2]]);
+    std::array<int, 3> sorted{corners[0], corners[1], corners[2]};
+    std::sort(sorted.begin(), sorted.end());
+    const bool flat = sorted[0] == sorted[1] || sorted[1] == sorted[2];
+    if (!flat && seen.insert(sorted).second) coarse.triangles.push_back(corners);
+  }
+  return coarse;
+}
+
+/// Stretches of a line, in order and apart.
+using Stretches = std::vector<std::pair<double, double>>;
+
+Stretches united(Stretches stretches) {
+  std::sort(stretches.begin(), stretches.end());
+  Stretches result;
+  for (const auto& stretch : stretches) {
+    if (result.empty() || stretch.first > result.back().second)
+      result.push_back(stretch);
+    else
+      result.back().second = std::max(result.back().second, stretch.second);
+  }
+  return result;
+}
+
+double length(const Stretches& stretches) {
+  double sum = 0;
+  for (const auto& stretch : stretches) sum += stretch.second - stretch.first;
+  return sum;
+}
+
+double common_length(const Stretches& a, const Stretches& b) {
+  double sum = 0;
+  for (const auto& one : a)
+    for (const auto& other : b) sum += std::max(0.0, std::min(one.second, other.second) - std::max(one.first, other.first));
+  return sum;
+}
+
+/// Where the upright line through (x, y) is in the mesh.
+Stretches within(const TriangleMesh& mesh, double x, double y) {
+  std::vector<std::pair<double, int>> crossings;  // z, and +1 where the line goes in
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const auto side = [&](const Vector3d& p, const Vector3d& q) { return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x()); };
+    const double u = side(b, c), v = side(c, a), w = side(a, b);
+    if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) || u + v + w == 0) continue;
+    crossings.emplace_back((u * a.z() + v * b.z() + w * c.z()) / (u + v + w), u + v + w < 0 ? 1 : -1);
+  }
+  std::sort(crossings.begin(), crossings.end());
+  Stretches stretches;
+  int depth = 0;
+  for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
+    depth += crossings[k].second;
+    if (depth > 0) stretches.emplace_back(crossings[k].first, crossings[k + 1].first);
+  }
+  return united(stretches);
+}
+
+Stretches within(const std::vector<ConvexHull>& parts, double x, double y) {
+  Stretches stretches;
+  for (const ConvexHull& part : parts) {
+    double low = -1e300, high = 1e300;
+    for (const ConvexHull::Face& face : part.faces) {
+      const double rest = face.offset - face.normal.x() * x - face.normal.y() * y, slope = face.normal.z();
+      if (slope > 1e-12) high = std::min(high, rest / slope);
+      if (slope < -1e-12) low = std::max(low, rest / slope);
+      if (std::abs(slope) <= 1e-12 && rest < 0) high = low;  // beside it
+    }
+    if (low < high) stretches.emplace_back(low, high);
+  }
+  return united(stretches);
 }
 
 }  // namespace
 
 std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, const std::string& what) {
+  TriangleMesh coarse = mesh;
+  for (double cell = 0.25 * spacing; coarse.triangles.size() > many_triangles; cell *= 1.25) coarse = coarsened(mesh, cell);
   std::vector<HACD::Vec3<HACD::Real>> points;
   std::vector<HACD::Vec3<long>> triangles;
-  for (const Vector3d& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
-  for (const Vector3i& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  for (const Vector3d& v : coarse.vertices) points.emplace_back(v.x(), v.y(), v.z());
+  for (const Vector3i& t : coarse.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  const Box box = coarse.bounding_box();
   HACD::HACD hacd;
   hacd.SetPoints(points.data());
   hacd.SetNPoints(points.size());
   hacd.SetTriangles(triangles.data());
   hacd.SetNTriangles(triangles.size());
-  hacd.SetCompacityWeight(0.0001);
-  hacd.SetVolumeWeight(0.0);
+  hacd.SetCompacityWeight(1e-4);
+  hacd.SetVolumeWeight(0);
   hacd.SetNClusters(1);
   hacd.SetNVerticesPerCH(200);
-  const Box box = mesh.bounding_box();
-  hacd.SetScaleFactor(1000.0);
-  hacd.SetConcavity(1000.0 * spacing / (box.max - box.min).norm());
+  hacd.SetScaleFactor(scale);
+  hacd.SetConcavity(scale * spacing / (box.max - box.min).norm());
   hacd.SetConnectDist(0);
   hacd.SetAddExtraDistPoints(true);
   hacd.SetAddNeighboursDistPoints(true);
@@ -51,6 +139,7 @@ std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, cons
     try {
       parts.push_back(convex_hull(vertices, what));
     } catch (const Error&) {
+      // A patch of the surface that is flat by itself: what it lacks is counted in the difference of volume, and told.
     }
   }
   if (parts.empty()) throw Error(what + " falls into no convex parts; list them as parts for contacts, or choose the convex hull");
@@ -64,22 +153,22 @@ VolumeDifference volume_difference(const TriangleMesh& mesh, const std::vector<C
     box.min = box.min.cwiseMin(own.min);
     box.max = box.max.cwiseMax(own.max);
   }
-  const Vector3d size = box.max - box.min;
-  const double step = size.maxCoeff() / samples_across;
-  const Vector3i counts = (size / step).array().ceil().cast<int>().max(1);
-  const Vector3d cell = size.array() / counts.cast<double>().array();
-  double in_mesh = 0, lacking = 0, added = 0;
-  for (int i = 0; i < counts.x(); ++i)
-    for (int j = 0; j < counts.y(); ++j)
-      for (int k = 0; k < counts.z(); ++k) {
-        const Vector3d point = box.min + cell.cwiseProduct(Vector3d(i + 0.5, j + 0.5, k + 0.5));
-        const bool in_body = inside(mesh, point);
-        const bool in_part = std::any_of(parts.begin(), parts.end(), [&](const ConvexHull& part) { return holds(part, point); });
-        in_mesh += in_body;
-        lacking += in_body && !in_part;
-        added += in_part && !in_body;
-      }
-  return in_mesh > 0 ? VolumeDifference{lacking / in_mesh, added / in_mesh} : VolumeDifference{};
+  constexpr int lines = 64;  // along either axis
+  const Vector3d step = (box.max - box.min) / lines;
+  double held = 0, lacking = 0, added = 0;
+  for (int i = 0; i < lines; ++i)
+    for (int j = 0; j < lines; ++j) {
+      // A little off the middle of its cell, so that lines do not run along faces and edges that lie there.
+      const double x = box.min.x() + (i + 0.5003) * step.x(), y = box.min.y() + (j + 0.4997) * step.y();
+      const Stretches in_mesh = within(mesh, x, y), in_parts = within(parts, x, y);
+      const double common = common_length(in_mesh, in_parts);
+      held += length(in_mesh);
+      lacking += length(in_mesh) - common;
+      added += length(in_parts) - common;
+    }
+  const double whole = std::max(held, 1e-300);
+  const auto fraction = [&](double part) { return part > 1e-9 * whole ? part / whole : 0.0; };
+  return {fraction(lacking), fraction(added)};
 }
 
 }  // namespace wavetank

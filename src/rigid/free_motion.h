@@ -22,7 +22,7 @@ struct Inertia {
   Matrix3d in_world(const Quaterniond& orientation) const;
   Matrix3d inverse_in_world(const Quaterniond& orientation) const;
 
-  double mass = 0;                                                   ///< 0: its motion is given
+  double mass = 0;                                                  ///< 0: its motion is given
   Matrix3d own = Matrix3d::Zero(), own_inverse = Matrix3d::Zero();  ///< in the body's axes; in 2-D only yy
 };
 

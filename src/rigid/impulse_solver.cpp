@@ -43,9 +43,9 @@ class ImpulseSolver::Rows : public btSequentialImpulseConstraintSolver {
 };
 
 void ImpulseSolver::Rows::add_bodies() {
-  m_tmpSolverBodyPool.resize(0);
+  m_tmpSolverBodyPool.resizeNoInitialize(0);
   for (const SolverBody& body : *bodies) {
-    btSolverBody& added = m_tmpSolverBodyPool.expand();
+    btSolverBody& added = m_tmpSolverBodyPool.expandNonInitializing();
     added.m_worldTransform.setIdentity();
     for (btVector3* zero : {&added.m_deltaLinearVelocity, &added.m_deltaAngularVelocity, &added.m_pushVelocity, &added.m_turnVelocity,
                             &added.m_externalForceImpulse, &added.m_externalTorqueImpulse})
@@ -70,8 +70,7 @@ void ImpulseSolver::Rows::fill(btSolverConstraint& row, int a, int b, const Vect
   row.m_relpos2CrossNormal = -to_bullet(angular_b);
   row.m_angularComponentA = to_bullet(turn_a);
   row.m_angularComponentB = -to_bullet(turn_b);
-  const double answer =
-      (first.inverse_mass + second.inverse_mass) * linear.squaredNorm() + turn_a.dot(angular_a) + turn_b.dot(angular_b);
+  const double answer = (first.inverse_mass + second.inverse_mass) * linear.squaredNorm() + turn_a.dot(angular_a) + turn_b.dot(angular_b);
   row.m_jacDiagABInv = answer > 0 ? 1 / answer : 0;
   row.m_appliedImpulse = row.m_appliedPushImpulse = 0;
   row.m_friction = row.m_cfm = row.m_rhsPenetration = 0;

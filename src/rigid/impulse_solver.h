@@ -43,13 +43,13 @@ struct BodyChange {
 
 /// How one step is to be solved.
 struct SolverSettings {
-  double time_step = 0;          ///< s
-  double correction = 0;         ///< of overlaps, taken away in the step
-  double slop = 0;               ///< m, of overlap that stays, so that a contact at rest is one in every step
-  double least_rebound = 0;      ///< m/s: slower ones do not rebound
-  double resolution = 0;         ///< m/s: changes below it end the iterations
-  int iterations = 0;            ///< at most
-  bool planar = false;           ///< no friction along y
+  double time_step = 0;      ///< s
+  double correction = 0;     ///< of overlaps, taken away in the step
+  double slop = 0;           ///< m, of overlap that stays, so that a contact at rest is one in every step
+  double least_rebound = 0;  ///< m/s: slower ones do not rebound
+  double resolution = 0;     ///< m/s: changes below it end the iterations
+  int iterations = 0;        ///< at most
+  bool planar = false;       ///< no friction along y
 };
 
 /// Bullet's sequential impulses, on rows that are set up here. Bullet's own set-up would let a body that comes near bounce off with less

@@ -42,13 +42,15 @@ Joint::Joint(const JointCase& joint, const JointEnd& child, const JointEnd& pare
   const std::string what = "joint '" + joint.name + "'";
   const bool has_axis = joint.type == JointType::hinge || joint.type == JointType::slider;
   if (has_axis) {
-    if (!(joint.axis.norm() > 0) || !joint.axis.allFinite()) throw Error(what + ": its axis has no direction; give one of any length but 0");
+    if (!(joint.axis.norm() > 0) || !joint.axis.allFinite())
+      throw Error(what + ": its axis has no direction; give one of any length but 0");
     axis_ = joint.axis.normalized();
     if (dimensions == 2 && (joint.type == JointType::hinge) != (std::abs(axis_.y()) == 1))
       throw Error(what + ": in two dimensions a hinge turns about y, and a slider's axis lies in the x–z plane");
   }
   if (joint.limits && !((*joint.limits)[0] <= (*joint.limits)[1]))
-    throw Error(what + ": its lower limit " + number_text((*joint.limits)[0]) + " is above its upper limit " + number_text((*joint.limits)[1]));
+    throw Error(what + ": its lower limit " + number_text((*joint.limits)[0]) + " is above its upper limit " +
+                number_text((*joint.limits)[1]));
   if (joint.type == JointType::spring) {
     if (!joint.parent_point) throw Error(what + ": a spring needs parent_point, the place of its other end");
     const double distance = (joint.point - *joint.parent_point).norm();
@@ -59,11 +61,20 @@ Joint::Joint(const JointCase& joint, const JointEnd& child, const JointEnd& pare
   const std::size_t turning = dimensions == 2 ? 1 : 3, moving = dimensions == 2 ? 2 : 3;
   const auto lock = [&](std::size_t count) { bounds_.insert(bounds_.end(), count, Bounds{}); };
   switch (joint.type) {
-    case JointType::fixed: lock(moving + turning); break;
-    case JointType::hinge: lock(moving + turning - 1); break;
-    case JointType::slider: lock(moving + turning - 1); break;
-    case JointType::ball: lock(moving); break;
-    case JointType::spring: break;
+    case JointType::fixed:
+      lock(moving + turning);
+      break;
+    case JointType::hinge:
+      lock(moving + turning - 1);
+      break;
+    case JointType::slider:
+      lock(moving + turning - 1);
+      break;
+    case JointType::ball:
+      lock(moving);
+      break;
+    case JointType::spring:
+      break;
     case JointType::six_dof:
       for (int k = 0; k < 6; ++k) {
         if (dimensions == 2 && (k == 1 || k == 3 || k == 5)) continue;
@@ -225,7 +236,8 @@ void Joint::add_rows(const StepStates& states, const std::vector<Inertia>& inert
 }
 
 /// How the coordinate answers to its own force while the joint's locked ones hold.
-double Joint::free_mobility(const Coordinate& coordinate, const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const {
+double Joint::free_mobility(const Coordinate& coordinate, const std::vector<RigidState>& states,
+                            const std::vector<Inertia>& inertias) const {
   const std::vector<Coordinate> all = bounded(states, Eigen::Matrix3d::Identity());
   std::vector<Coordinate> locked;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -241,7 +253,8 @@ double Joint::free_mobility(const Coordinate& coordinate, const std::vector<Rigi
   return count == 0 ? whole : std::max(whole - cross.dot(held.ldlt().solve(cross)), 0.0);
 }
 
-void Joint::add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, std::vector<RigidLoad>& loads) const {
+void Joint::add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step,
+                      std::vector<RigidLoad>& loads) const {
   if (joint_.stiffness == 0 && joint_.damping == 0) return;
   const bool is_spring = joint_.type == JointType::spring;
   const Coordinate coordinate = is_spring ? stretched(states.middle) : free_one(states.middle);

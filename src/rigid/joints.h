@@ -63,7 +63,8 @@ class Joint {
   Coordinate free_one(const std::vector<RigidState>& states) const;                          ///< of hinge and slider
   std::vector<Coordinate> bounded(const std::vector<RigidState>& states, const Eigen::Matrix3d& axes) const;
   Eigen::Matrix3d settled_axes(const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
-  double answer(const Coordinate& a, const Coordinate& b, const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
+  double answer(const Coordinate& a, const Coordinate& b, const std::vector<RigidState>& states,
+                const std::vector<Inertia>& inertias) const;
   double free_mobility(const Coordinate& coordinate, const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
 
   JointCase joint_;

@@ -9,7 +9,7 @@
 #include "motion_record.h"
 #include "number_text.h"
 #include "wavetank/common/error.h"
-#include "wavetank/geometry/file_path.h"
+#include "wavetank/scene/file_path.h"
 
 namespace wavetank {
 namespace {

@@ -67,8 +67,8 @@ RigidLoad OutsideForces::at(double time, double time_step, const RigidState& mid
   return load;
 }
 
-RigidLoad OutsideForces::pull(const MooringCase& mooring, double length, double time_step, const RigidState& middle,
-                              const Inertia& inertia, const RigidState& tank, const Inertia& tank_inertia, RigidLoad& on_tank) const {
+RigidLoad OutsideForces::pull(const MooringCase& mooring, double length, double time_step, const RigidState& middle, const Inertia& inertia,
+                              const RigidState& tank, const Inertia& tank_inertia, RigidLoad& on_tank) const {
   const Vector3d end = middle.moved(mooring.attachment, reference_);
   const Vector3d anchor = anchored_ ? tank.moved(mooring.anchor, tank_reference_) : mooring.anchor;
   const Vector3d line = anchor - end;

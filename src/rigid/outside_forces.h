@@ -38,7 +38,8 @@ class OutsideForces {
 double mobility(const Inertia& inertia, const Quaterniond& orientation, const Vector3d& arm, const Vector3d& direction);
 
 /// The mean force over a step of a spring and a damper in parallel, which draw two points together; `stretch` at its middle by the velocity
-/// `rate` at its start. Implicit in its own motion (the midpoint rule for one spring), so that no stiffness or damping is unstable by itself.
+/// `rate` at its start. Implicit in its own motion (the midpoint rule for one spring), so that no stiffness or damping is unstable by
+/// itself.
 double spring_force(double stiffness, double damping, double stretch, double rate, double mobility, double time_step);
 
 }  // namespace wavetank

@@ -57,7 +57,8 @@ double area_of(const std::vector<Vector3d>& polygon) {
 
 /// Convex hull in the plane, anticlockwise as x goes right and z up (the monotone chain).
 std::vector<Vector3d> plane_hull(std::vector<Vector3d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x() || (a.x() == b.x() && a.z() < b.z()); });
+  std::sort(points.begin(), points.end(),
+            [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x() || (a.x() == b.x() && a.z() < b.z()); });
   std::vector<Vector3d> hull;
   const auto turns_right = [&](const Vector3d& point) {
     const Vector3d &a = hull[hull.size() - 2], &b = hull.back();

@@ -50,9 +50,9 @@ struct WallSurface::Tree {
 
 /// In which direction a hull and a facet come apart soonest.
 struct WallSurface::Axis {
-  Vector3d direction;  ///< from the wall to the hull
-  double gap;          ///< m, along it
-  int face = -1;       ///< of the hull, or
+  Vector3d direction;        ///< from the wall to the hull
+  double gap;                ///< m, along it
+  int face = -1;             ///< of the hull, or
   int side = -1, edge = -1;  ///< of the facet and of the hull
 };
 

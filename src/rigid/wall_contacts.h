@@ -27,9 +27,9 @@ struct WallContact {
   int owner = 0;                       ///< of the wall's facet
 };
 
-/// Walls that move together, as the layout's facets, which know on which side the fluid is. They stop what comes from there and nothing else:
-/// a facet acts on a hull whose centre is before it. At the edge between facets that lie in a plane, or that form a hollow, no hull can be
-/// caught; at a salient edge or a free one it is pushed off in the direction in which it overlaps least.
+/// Walls that move together, as the layout's facets, which know on which side the fluid is. They stop what comes from there and nothing
+/// else: a facet acts on a hull whose centre is before it. At the edge between facets that lie in a plane, or that form a hollow, no hull
+/// can be caught; at a salient edge or a free one it is pushed off in the direction in which it overlaps least.
 class WallSurface {
  public:
   /// Of the owners given; in 2-D segments become strips, `half_width` to either side of y = 0.
@@ -43,9 +43,9 @@ class WallSurface {
 
  private:
   struct Side {
-    Vector3d outwards;                          ///< unit, in the facet's plane
-    bool salient = true;                        ///< a hull can lie against the side itself
-    bool joined = false;                        ///< with another facet
+    Vector3d outwards;                           ///< unit, in the facet's plane
+    bool salient = true;                         ///< a hull can lie against the side itself
+    bool joined = false;                         ///< with another facet
     Vector3d other_outwards = Vector3d::Zero();  ///< of that facet
     bool faces(const Vector3d& direction) const;
   };

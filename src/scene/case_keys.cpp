@@ -4,6 +4,7 @@
 #include "mesh_keys.h"
 #include "motion_values.h"
 #include "rigid_keys.h"
+#include "robot_keys.h"
 
 namespace wavetank::scene {
 namespace {
@@ -234,6 +235,8 @@ Section<Case> declare_case() {
   section.key("tank", &Case::tank, section_of(tank_section()), "", "The tank: a box or a mesh.").required = true;
   section.key("bodies", &Case::bodies, list_of(body_section()), "", "Bodies in the tank: boxes or closed meshes.");
   section.key("joints", &Case::joints, list_of(joint_section()), "", "Joints between bodies, or a body and the tank or the world.");
+  section.key("robots", &Case::robots, robot_list(), "",
+              "Robots described in URDF: their links become bodies and their joints joints, after those of the case.");
   section.key("numerics", &Case::numerics, section_of(numerics_section()), "", "The method.");
   section.key("instruments", &Case::instruments, section_of(instruments_section()), "", "What is measured.");
   section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds are published.");

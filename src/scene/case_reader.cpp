@@ -1,39 +1,25 @@
 #include "wavetank/scene/case_reader.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "case_keys.h"
+#include "robots.h"
 #include "structure.h"
+#include "text_file.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
 namespace {
 
-constexpr std::size_t greatest_file = 16u << 20;  // bytes; a case is a few kB, and /dev/zero has no end
-
-std::string read_whole_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a directory; a case is a YAML file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path + ": cannot open the case file: " + std::strerror(errno != 0 ? errno : ENOENT));
-  std::string text;
-  for (char block[65536]; file.read(block, sizeof block) || file.gcount() > 0;) {
-    text.append(block, static_cast<std::size_t>(file.gcount()));
-    if (text.size() > greatest_file) throw Error(path + ": is larger than 16 MiB; that is no case file");
-  }
-  if (file.bad()) throw Error(path + ": reading the case file failed: " + std::strerror(errno));
-  return text;
-}
-
-Case read_settings(scene::Setting root, const std::vector<Override>& overrides) {
+// `directory` is the case file's.
+Case read_settings(scene::Setting root, const std::vector<Override>& overrides, const std::string& directory,
+                   const Surroundings& surroundings) {
   for (const Override& override : overrides) scene::apply_override(root, scene::case_keys(), override);
   scene::check_structure(root, scene::case_keys());
   scene::Context context{Case{}.dimensions};
   Case read = scene::case_section().read(root, "", context);
+  read.directory = directory;
+  scene::build_robots(read, root, surroundings);
   scene::check_case(read, root);
   return read;
 }
@@ -62,14 +48,15 @@ class AbsolutePaths {
 
 }  // namespace
 
-Case read_case_file(const std::string& path, const std::vector<Override>& overrides) {
-  Case read = read_case_text(read_whole_file(path), path, overrides);
-  read.directory = std::filesystem::absolute(path).lexically_normal().parent_path().string();
-  return read;
+Case read_case_file(const std::string& path, const std::vector<Override>& overrides, const Surroundings& surroundings) {
+  const std::string text = scene::read_text_file(path, "case file", "a case is a YAML file");
+  const std::string directory = std::filesystem::absolute(path).lexically_normal().parent_path().string();
+  return read_settings(scene::parse_settings(text, path), overrides, directory, surroundings);
 }
 
-Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides) {
-  return read_settings(scene::parse_settings(yaml, source), overrides);
+Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides,
+                    const Surroundings& surroundings) {
+  return read_settings(scene::parse_settings(yaml, source), overrides, "", surroundings);
 }
 
 std::string write_case(const Case& checked) {

@@ -9,22 +9,6 @@
 namespace wavetank::scene {
 namespace {
 
-// The shortest text that reads back to the same number, whatever the process's locale.
-std::string number_text(double number) {
-  for (int digits = 15;; ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(digits);
-    out << number;
-    if (digits == 17) return out.str();
-    std::istringstream in(out.str());
-    in.imbue(std::locale::classic());
-    double back = 0;
-    in >> back;
-    if (back == number) return out.str();
-  }
-}
-
 enum class Reading { number, not_finite, not_a_number };
 
 Reading read_number(const Setting& setting, double& number) {
@@ -118,6 +102,21 @@ Codec<std::optional<double>> number_or(const std::string& word, Range range) {
 }
 
 }  // namespace
+
+std::string number_text(double number) {
+  for (int digits = 15;; ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(digits);
+    out << number;
+    if (digits == 17) return out.str();
+    std::istringstream in(out.str());
+    in.imbue(std::locale::classic());
+    double back = 0;
+    in >> back;
+    if (back == number) return out.str();
+  }
+}
 
 double in_degrees(double radians) {
   const double degrees = radians / degree;

@@ -19,6 +19,9 @@ namespace wavetank::scene {
 
 using Eigen::Vector3d;
 
+/// The shortest text that reads back to the same number, whatever the process's locale.
+std::string number_text(double number);
+
 /// What a value must know of the rest of the case.
 struct Context {
   int dimensions;  ///< 2 or 3; set by reading the key `dimensions`, which therefore comes before every position

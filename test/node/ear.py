@@ -23,6 +23,13 @@ class Ear:
     def subscribe(self, topic):
         return rospy.Subscriber(topic, self.topics[topic], self.hear, topic, queue_size=10000, tcp_nodelay=True)
 
+    def subscribe_again(self, topic):
+        """With a connection of its own: subscribers of one process share theirs."""
+        subscriber = next(s for s in self.subscribers if s.name == topic)
+        self.subscribers.remove(subscriber)
+        subscriber.unregister()
+        self.subscribers.append(self.subscribe(topic))
+
     def hear(self, message, topic):
         with self.lock:
             self.came[topic].append(time.time())

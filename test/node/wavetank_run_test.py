@@ -99,6 +99,26 @@ class Bags(ProgramTest):
         self.assertEqual(first["/wavetank/bodies/step/wrench"].header.frame_id, "tank/bodies/step")
         self.assertIn("A small tank at rest", first["/wavetank/case"].data)
 
+    def test_holds_the_poses_of_what_moves(self):
+        case = os.path.join(PACKAGE, "test", "node", "floating_box.yaml")
+        self.assert_runs(self.run_program(case, "--bag", "out.bag", "--duration", "0.05", "--set", "tank/motion=commanded"))
+        poses = [i * 2000000 for i in range(26)]
+        for topic in ["bodies/tank/odom", "bodies/box/odom", "bodies/trolley/odom", "joint_states"]:
+            self.assertEqual(stamps(self.path("out.bag"), "/wavetank/" + topic), poses, topic)
+        with rosbag.Bag(self.path("out.bag")) as bag:
+            kinds = {topic: info.msg_type for topic, info in bag.get_type_and_topic_info()[1].items()}
+            transforms = [message.transforms for _, message, _ in bag.read_messages(topics=["/tf"])]
+            static = [t.child_frame_id for _, message, _ in bag.read_messages(topics=["/tf_static"]) for t in message.transforms]
+        self.assertEqual(kinds["/wavetank/bodies/box/odom"], "nav_msgs/Odometry")
+        self.assertEqual(kinds["/wavetank/joint_states"], "sensor_msgs/JointState")
+        self.assertNotIn("/wavetank/bodies/step/odom", kinds)
+        self.assertEqual(static, ["tank/probes/P1", "tank/bodies/step"])
+        self.assertEqual([message[0].header.stamp.to_nsec() for message in transforms], poses)
+        for message in transforms:
+            frames = [(t.header.frame_id, t.child_frame_id) for t in message]
+            self.assertEqual(frames, [("world", "tank"), ("tank", "tank/bodies/box"), ("tank", "tank/bodies/trolley")])
+            self.assertEqual(len({t.header.stamp for t in message}), 1)
+
     def test_the_case_in_a_bag_repeats_the_run(self):
         self.assert_runs(self.run_program(self.case(), "--bag", "first.bag", "--set", "fluid/density=998"))
         with rosbag.Bag(self.path("first.bag")) as bag:

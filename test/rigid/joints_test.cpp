@@ -42,7 +42,8 @@ class Crossings {
 
 TEST(Joints, APendulumHasItsPeriodAndKeepsItsEnergy) {
   // Hung at its top; then a small bob far below the hinge, which is hard on an iterative solver.
-  for (const auto& [arm, size] : {std::pair<double, Vector3d>{0.5, {0.1, 0.2, 1.0}}, std::pair<double, Vector3d>{1.5, {0.06, 0.06, 0.06}}}) {
+  for (const auto& [arm, size] :
+       {std::pair<double, Vector3d>{0.5, {0.1, 0.2, 1.0}}, std::pair<double, Vector3d>{1.5, {0.06, 0.06, 0.06}}}) {
     Case scene = hanging({2, 2, 2}, size);
     scene.joints = {joint_of(JointType::hinge, {2, 2, 2 + arm})};
     scene.bodies[0].rigid.angular_velocity = {0, 0.05, 0};

@@ -48,8 +48,8 @@ inline std::string obj_text(const TriangleMesh& mesh) {
   return text.str();
 }
 
-/// A polygon in the x–z plane, anticlockwise as x goes right and z up, drawn out along y and closed by fans from its first corner: from there
-/// every other corner must be seen.
+/// A polygon in the x–z plane, anticlockwise as x goes right and z up, drawn out along y and closed by fans from its first corner: from
+/// there every other corner must be seen.
 inline TriangleMesh prism_mesh(const std::vector<Vector3d>& polygon, double from, double to) {
   TriangleMesh mesh;
   const int count = static_cast<int>(polygon.size());
@@ -64,7 +64,8 @@ inline TriangleMesh prism_mesh(const std::vector<Vector3d>& polygon, double from
     mesh.triangles.emplace_back(0, k + 1, k);
     mesh.triangles.emplace_back(count, count + k, count + k + 1);
   }
-  for (Vector3i& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);  // so that they are wound outwards, whatever the polygon's y
+  for (Vector3i& triangle : mesh.triangles)
+    std::swap(triangle[1], triangle[2]);  // so that they are wound outwards, whatever the polygon's y
   return mesh;
 }
 

@@ -99,7 +99,9 @@ TEST(RigidWorld, RefusesWrenchesAndCommandsThatDoNotFit) {
   scene.bodies[1].rigid.density.reset();
   Trial run(scene, 1e-3);
   OutsideWrench wrench;
-  const auto says = [](const std::string& message, const std::string& part) { EXPECT_NE(message.find(part), std::string::npos) << message; };
+  const auto says = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
   says(error_of([&] { run.world.set_outside_wrench(2, wrench); }), "body 'rover' is not free");
   says(error_of([&] { run.world.set_outside_wrench(0, wrench); }), "the tank is not free");
   says(error_of([&] { run.world.set_outside_wrench(3, wrench); }), "no body 3");

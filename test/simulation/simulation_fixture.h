@@ -34,6 +34,7 @@ inline void append(Samples& samples, Samples more) {
   add(samples.levels, more.levels);
   add(samples.wrenches, more.wrenches);
   add(samples.energies, more.energies);
+  add(samples.poses, more.poses);
 }
 
 /// Advances to `time`; the samples on the way.

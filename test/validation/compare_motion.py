@@ -10,7 +10,7 @@ import sys
 import numpy
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
-CONFIG = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "config")
+MESHES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes")
 
 
 class Failure(Exception):
@@ -156,6 +156,34 @@ def read_series(bag, kind):
     """Pressures or levels of a bag as records by name."""
     found = load_script("plot_probes").read_bag(bag, None)
     return {series.name: Record(series.times, series.values) for series in getattr(found, kind)}
+
+
+def read_mesh(body):
+    """The triangles of a body that is a binary STL of this package, scaled, about the mesh's origin: an array of triangles, corners, coordinates (m)."""
+    with open(os.path.join(MESHES, os.path.basename(body["mesh"])), "rb") as file:
+        content = file.read()
+    triangle = numpy.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    count = int(numpy.frombuffer(content, "<u4", 1, 80)[0])
+    return body.get("scale", 1.0) * numpy.frombuffer(content, triangle, count, 84)["corners"].astype(float)
+
+
+def volume_of(triangles):
+    return float(numpy.linalg.det(triangles).sum() / 6.0)
+
+
+def depth_inside(triangles, points):
+    """How deep points are inside a convex mesh, m: the least distance to its planes from within; negative outside."""
+    normals = numpy.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals /= numpy.linalg.norm(normals, axis=1, keepdims=True)
+    heights = numpy.sum(normals * triangles[:, 0], axis=1)
+    return (heights - points.dot(normals.T)).min(axis=1)
+
+
+def rotated(quaternions, vectors):
+    """Vectors turned by quaternions, rows x y z w; either may be a single row."""
+    axis, real = quaternions[..., :3], quaternions[..., 3:]
+    first = 2.0 * numpy.cross(axis, vectors)
+    return vectors + real * first + numpy.cross(axis, first)
 
 
 def read_motions(bag):

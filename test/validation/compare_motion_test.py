@@ -17,17 +17,21 @@ from compare_motion import (  # noqa: E402
     Table,
     correlation,
     crossings,
+    depth_inside,
     impulse,
     load_script,
     mean,
     peak,
     peak_to_peak,
+    read_mesh,
     read_record,
     relative_error,
     rms_error,
+    rotated,
+    volume_of,
 )
 from linear_heave import LinearHeave  # noqa: E402
-from motion_checks import draught_of, rotated  # noqa: E402
+from motion_checks import draught_of  # noqa: E402
 
 plot_motion = load_script("plot_motion")
 ROUNDING = 1e-12
@@ -138,6 +142,23 @@ class Angles(unittest.TestCase):
         half = 0.5 * math.radians(30)
         turned = rotated(numpy.array([[0, math.sin(half), 0, math.cos(half)]]), numpy.array([1.0, 0, 0]))
         numpy.testing.assert_allclose(turned, [[math.cos(2 * half), 0, -0.5]], atol=1e-12)
+
+
+class Meshes(unittest.TestCase):
+    def test_the_ball_is_a_little_smaller_than_a_sphere(self):
+        ball = read_mesh({"mesh": "package://wavetank/meshes/ball.stl", "scale": 2.0})
+        self.assertAlmostEqual(numpy.linalg.norm(ball, axis=2).max(), 1.0, delta=1e-6)  # float32
+        # The middles of its facets, whose edges span up to a third of a right angle, lie at 0.94 of the radius: the volume is between 0.94³ and 1 of a sphere's.
+        self.assertTrue(0.83 < volume_of(ball) / (4 / 3 * math.pi) < 1.0)
+        self.assertGreater(volume_of(ball), 0)
+
+    def test_depth_is_the_way_to_the_nearest_plane(self):
+        ball = read_mesh({"mesh": "ball.stl", "scale": 2.0})
+        depths = depth_inside(ball, numpy.array([[0, 0, 0], [0.5, 0, 0], [0, 0, 0.99], [0, 1.1, 0]]))
+        self.assertTrue(0.92 < depths[0] < 1.0)
+        self.assertTrue(0.4 < depths[1] < 0.5)
+        self.assertTrue(0 < depths[2] < 0.01)
+        self.assertTrue(-0.1 - 1e-6 < depths[3] < -0.05)
 
 
 class Draught(unittest.TestCase):

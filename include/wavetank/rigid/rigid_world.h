@@ -26,18 +26,23 @@ struct OutsideWrench {
 };
 
 struct JointState {
-  double position = 0;  ///< m or rad from the start, of hinge, slider and spring (its length); 0 for the others
+  double position = 0;  ///< m or rad from the start, of hinge (turns are counted), slider and spring (its length); 0 for the others
   double velocity = 0;  ///< m/s or rad/s
-  double effort = 0;    ///< N or N·m, of its spring and damper
+  double effort = 0;    ///< N or N·m, of its spring and damper on the child along the position; of a spring negative where it pulls
 };
 
-/// The tank (0) and the bodies (1 + i) as rigid bodies in Bullet, in the world's inertial axes, which are the case's coordinates at t = 0.
-/// A step depends on nothing but what save() returns: Bullet's own memory of contacts is cleared before each, so that a restored run goes
-/// on bit for bit.
+/// The tank (0) and the bodies (1 + i) as rigid bodies, in the world's inertial axes, which are the case's coordinates at t = 0. Bullet
+/// finds contacts between bodies and solves for the impulses of contacts and joints. A step depends on nothing but what save() returns:
+/// contacts are found anew in every step, and solved without a warm start, so that a restored run goes on bit for bit. A fixed body is part
+/// of the tank: it moves with it, and where the tank is free the fluid's load on it acts on the tank; its mass is not added. Prescribed and
+/// commanded motions are in the world, whatever the tank does. Moorings of the tank itself hang on the world. In contacts, free bodies are
+/// convex parts. The tank, and other bodies whose shape is `automatic`, are their own facets, hollows and all, from the fluid's side: a
+/// body that has gone over the rim passes through the tank's walls from outside, and nothing stops it at the ends of a periodic tank.
+/// Bodies joined, and bodies joined to the tank, pass through each other. Bodies that are not free do not feel contacts.
 class RigidWorld {
  public:
-  /// Throws Error for mass properties that cannot be, prescribed motions that cannot be read, joints that do not fit. Says once, through
-  /// the log, where a collision shape is an approximation and by how much (volume).
+  /// Makes nothing of Bullet's where no body is free. Throws Error for mass properties that cannot be, prescribed motions that cannot be
+  /// read, joints and moorings that do not fit. Says once, through the log, where a collision shape is an approximation and by how much.
   RigidWorld(const Case& settled_case, const Layout& layout, const ResourceResolver& resolve = {});
   ~RigidWorld();
 
@@ -54,6 +59,7 @@ class RigidWorld {
   /// States after half of the step from `time`, with the present velocities; leaves the world as it is.
   std::vector<RigidState> at_middle(double time, double time_step) const;
   /// One step; `fluid`: one load an owner, in the world's axes; those of bodies that are not free are not used.
+  /// Throws Error, naming body and time, for a load that is not finite.
   void advance(double time, double time_step, const std::vector<RigidLoad>& fluid);
 
   /// Throws Error for a body that is not free, or a value that is not finite.

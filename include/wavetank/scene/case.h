@@ -18,7 +18,8 @@ struct Box {
   Vector3d max = Vector3d::Zero();  ///< m
 };
 
-/// A mesh file as a user names it: package://, file://, an absolute path, or a path relative to the case file.
+/// A mesh file as a user names it: package://, file://, an absolute path, or a path relative to the case file. Or a parametric shape:
+/// shape://box?size=X,Y,Z, shape://sphere?radius=R, shape://cylinder?radius=R&length=L.
 struct MeshSource {
   std::string uri;
   double scale = 1.0;                       ///< metres per unit of the file
@@ -200,6 +201,15 @@ struct JointCase {
   std::optional<double> length;  ///< m, of a spring unstretched; none = the distance at the start
 };
 
+/// A robot described in URDF, which reading a case turns into bodies and joints: a case that has been read has none of these.
+struct RobotCase {
+  std::string urdf;                      ///< file: package://, file://, absolute, or relative to the case file; or else ...
+  std::string parameter;                 ///< ... the name of a ROS parameter that holds its text
+  Vector3d position = Vector3d::Zero();  ///< m, of the root link's origin
+  Vector3d rotation = Vector3d::Zero();  ///< rad, of the root link, roll-pitch-yaw about fixed axes
+  Motion motion = Motion::free;          ///< of the root link: free or fixed
+};
+
 enum class Scheme { delta_sph };
 enum class DensityDiffusion { none, fourtakas, antuono };
 enum class EquationOfState { linear, cole };
@@ -287,6 +297,7 @@ struct Case {
   TankCase tank;
   std::vector<BodyCase> bodies;
   std::vector<JointCase> joints;
+  std::vector<RobotCase> robots;
   NumericsCase numerics;
   InstrumentsCase instruments;
   PublishingCase publishing;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "wavetank/scene/case.h"
+#include "wavetank/scene/file_path.h"
 
 namespace wavetank {
 
@@ -13,12 +15,19 @@ struct Override {
   std::string value;  ///< YAML
 };
 
-/// Reads and checks a whole case from a YAML file. Throws Error naming the file, line, key's path, what was given, what is allowed, and
-/// for an unknown key the nearest known one.
-Case read_case_file(const std::string& path, const std::vector<Override>& overrides = {});
+/// What a case can name and only the program that reads it can find; a case that needs what is empty here is refused.
+struct Surroundings {
+  ResourceResolver resolve;                                       ///< of package:// URIs
+  std::function<std::string(const std::string& name)> parameter;  ///< the text that a ROS parameter holds; throws Error
+};
+
+/// Reads and checks a whole case from a YAML file, and makes bodies and joints of its robots. Throws Error naming the file, line, key's
+/// path, what was given, what is allowed, and for an unknown key the nearest known one.
+Case read_case_file(const std::string& path, const std::vector<Override>& overrides = {}, const Surroundings& surroundings = {});
 
 /// The same from YAML text; `source` stands for the file's name in messages (the parameter server's namespace, say).
-Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides = {});
+Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides = {},
+                    const Surroundings& surroundings = {});
 
 /// The complete case, every default filled in, as YAML that read_case_text accepts and reads back to the same case.
 std::string write_case(const Case& checked);

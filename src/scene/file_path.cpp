@@ -1,4 +1,4 @@
-#include "wavetank/geometry/file_path.h"
+#include "wavetank/scene/file_path.h"
 
 #include <cctype>
 #include <cstdlib>

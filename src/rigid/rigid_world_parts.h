@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contacts.h"
+#include "joints.h"
+#include "number_text.h"
+#include "rigid_owner.h"
+#include "wavetank/rigid/rigid_world.h"
+
+namespace wavetank {
+
+/// All that a RigidWorld is made of, and what happens within a step. Frames are owners, and after the last the world.
+struct RigidWorld::Parts {
+  Parts(const Case& scene, const Layout& layout, const ResourceResolver& resolve);
+
+  void make_joints(const Case& scene);
+  void make_contacts(const Case& scene, const Layout& layout, const ResourceResolver& resolve);
+
+  int frame_of(std::size_t owner) const { return owner > 0 && owners[owner].motion == Motion::fixed ? 0 : static_cast<int>(owner); }
+  RigidState state(std::size_t owner) const {
+    return frame_of(owner) == static_cast<int>(owner) ? owners[owner].state
+                                                      : riding(owners[0].state, owners[0].reference, owners[owner].reference);
+  }
+  std::vector<RigidState> present() const;
+  std::vector<RigidState> ahead(double time, double step) const;
+  std::vector<RigidLoad> loads(double time, double time_step, const std::vector<RigidLoad>& fluid, const StepStates& states) const;
+  std::vector<BodyChange> changes(double time_step, const StepStates& states, const std::vector<RigidState>& given,
+                                  const std::vector<FreeMotion>& motions) const;
+  std::string at_time(double time) const { return " at " + number_text(time) + " s"; }
+  RigidOwner& checked(std::size_t owner, Motion motion, const char* word);
+
+  int dimensions;
+  Vector3d gravity;
+  double spacing;
+  std::vector<RigidOwner> owners;
+  std::vector<Inertia> inertias;  ///< by frame, the world's last
+  std::vector<Joint> joints;
+  std::unique_ptr<ContactFinder> contacts;  ///< none where nothing is free
+  mutable ImpulseSolver solver;             ///< keeps nothing but memory
+};
+
+}  // namespace wavetank

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wavetank/scene/case.h"
+
+namespace wavetank::scene {
+
+struct RobotParts {
+  std::vector<BodyCase> bodies;
+  std::vector<JointCase> joints;
+};
+
+/// The bodies and joints of a robot described by URDF text, with all of its joints at zero, at the placement's position and rotation.
+/// A link with a shape becomes a body; one without is merged into the link that it is fixed to. Throws Error beginning with `source`.
+RobotParts robot_parts(const std::string& urdf, const std::string& source, const RobotCase& placement);
+
+}  // namespace wavetank::scene

@@ -1,0 +1,79 @@
+#include "robots.h"
+
+#include <algorithm>
+
+#include "robot_description.h"
+#include "text_file.h"
+#include "values.h"
+#include "wavetank/common/error.h"
+#include "wavetank/scene/file_path.h"
+
+namespace wavetank::scene {
+namespace {
+
+struct Description {
+  std::string text;
+  std::string source;  ///< for messages
+};
+
+Description find_description(const RobotCase& robot, const Case& read, const Surroundings& surroundings) {
+  if (robot.urdf.empty()) {
+    if (!surroundings.parameter) {
+      throw Error("only a node has ROS parameters such as '" + robot.parameter +
+                  "'; give the robot's file as urdf instead, or run the case with wavetank_node");
+    }
+    return {surroundings.parameter(robot.parameter), "parameter " + robot.parameter};
+  }
+  const std::string path = file_path("robot description", robot.urdf, read.directory, surroundings.resolve);
+  return {read_text_file(path, "robot description", "a robot description is a URDF file"), path};
+}
+
+template <class Named>
+bool has(const std::vector<Named>& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
+}
+
+// The rules for names of the case, which would otherwise point at entries that its file does not have.
+void check_name(const std::string& own, const std::string& what, const std::string& source, bool taken, const std::string& rule) {
+  Context context{3};
+  const Setting setting = Setting::string(own);
+  const std::string start = source + ": " + what + " '" + own + "'";
+  try {
+    name().read(setting, {what, ""}, context);
+  } catch (const Error&) {
+    throw Error(start + " cannot be called so; its name must be " + name().allowed);
+  }
+  if (taken) throw Error(start + " has a name that is taken; " + rule);
+}
+
+void add_parts(const RobotParts& parts, const std::string& source, Case& read) {
+  for (const BodyCase& body : parts.bodies) {
+    const bool reserved = body.name == "tank" || body.name == "world" || body.name == read.publishing.world_frame;
+    check_name(body.name, "link", source, reserved || has(read.bodies, body.name),
+               "every body must have one of its own, which is not tank, world or the world_frame");
+    read.bodies.push_back(body);
+  }
+  for (const JointCase& joint : parts.joints) {
+    check_name(joint.name, "joint", source, has(read.joints, joint.name), "every joint must have one of its own");
+    read.joints.push_back(joint);
+  }
+}
+
+}  // namespace
+
+void build_robots(Case& read, const Setting& root, const Surroundings& surroundings) {
+  for (std::size_t i = 0; i < read.robots.size(); ++i) {
+    const RobotCase& robot = read.robots[i];
+    Description description;
+    try {
+      description = find_description(robot, read, surroundings);
+    } catch (const Error& error) {
+      const std::string path = join_path(join_path("robots", i), robot.urdf.empty() ? "parameter" : "urdf");
+      throw Error(nearest_setting(root, path).place.describe() + ": " + path + ": " + error.what());
+    }
+    add_parts(robot_parts(description.text, description.source, robot), description.source, read);
+  }
+  read.robots.clear();
+}
+
+}  // namespace wavetank::scene
