@@ -12,7 +12,7 @@ namespace wavetank {
 namespace {
 
 const std::string scheme = "shape://";
-constexpr int usual_facets = 48, least_facets = 8, greatest_facets = 512;
+constexpr int usual_facets = 24, least_facets = 8, greatest_facets = 512;
 
 /// A shape's kind and numbers as its URI gives them.
 class ShapeText {

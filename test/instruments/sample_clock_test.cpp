@@ -58,7 +58,6 @@ class Sampling : public ::testing::Test {
     scene.instruments.rate = 1000;
     scene.instruments.energy_rate = 30;
     scene.instruments.pressure_probes = {{"probe", Vector3d::Zero()}};
-    layout.spacing = 0.1;
   }
 
   /// Records over the given steps.
@@ -88,8 +87,15 @@ class Sampling : public ::testing::Test {
     for (std::size_t k = 0; k < samples.energies.size(); ++k) ASSERT_EQ(samples.energies[k].time, static_cast<double>(k) / 30);
   }
 
+  static Layout tank_alone() {
+    Layout layout;
+    layout.spacing = 0.1;
+    layout.meshes.resize(1);
+    return layout;
+  }
+
   Case scene;
-  Layout layout;
+  Layout layout = tank_alone();
   RigidWorld world{scene, layout};  // in which nothing moves
   ClockedFluid fluid;
 };

@@ -27,14 +27,14 @@ wavetank::Case column(int dimensions, wavetank::DensityDiffusion diffusion) {
 }
 
 void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
-         const std::vector<Vector3d>& centres = {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}) {
+         const std::vector<Vector3d>& centres = {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}, wavetank::WallMover* mover = nullptr) {
   const wavetank::Layout layout = wavetank::lay_out(checked);
   const wavetank::Case scene = wavetank::settled(checked, layout);
   const auto solver = wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), centres);
   solver->pack(2, {});
   solver->start();
   for (int step = 0; step < 2; ++step)
-    if (!solver->advance().valid()) throw std::runtime_error("a particle is in violation");
+    if (!solver->advance(mover).valid()) throw std::runtime_error("a particle is in violation");
   const auto points = solver->make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.5, 0.2, 0.4), Vector3d(0.45, 0.1, 0.35)});
   const double pressure = solver->evaluate(*points)[1].pressure;
   const double force = solver->wrenches()[0][0].z();
@@ -47,6 +47,36 @@ void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
               scene.dimensions, static_cast<int>(scene.numerics.density_diffusion), solver->particle_count(), surface, layout.walls.size(),
               pressure, force, energy);
 }
+
+/// A box that is carried from the floor into the water and turned, in a tank that turns too.
+class Carried final : public wavetank::WallMover {
+ public:
+  explicit Carried(int dimensions) : across_(dimensions == 3 ? 1 : 0) {}
+
+  std::vector<int> coupled() const override { return {0, 1}; }
+  wavetank::WallMotions to_middle(double) override { return motions(); }
+  wavetank::WallMotions to_end(double, const std::vector<wavetank::WallWrench>&) override {
+    ++step_;
+    return motions();
+  }
+
+ private:
+  wavetank::WallMotions motions() const {
+    wavetank::WallMotions motions;
+    motions.owners.resize(2);
+    motions.owners[1].displacement = step_ * Vector3d(-0.02, 0.01 * across_, 0.02);  // lists are made anew after a quarter of the spacing
+    motions.owners[1].orientation = Eigen::AngleAxisd(0.1 * step_, Vector3d(across_, 1, across_).normalized());
+    motions.owners[1].velocity = Vector3d(-0.1, 0.05 * across_, 0.1);
+    motions.frame.emplace();
+    motions.frame->gravity = Vector3d(0.5, 0, -9.81);
+    motions.frame->angular_velocity = Vector3d(0, 0.3, 0);
+    motions.frame->angular_acceleration = Vector3d(0, 1, 0);
+    return motions;
+  }
+
+  int across_;
+  int step_ = 0;
+};
 
 }  // namespace
 
@@ -75,6 +105,14 @@ int main() {
       scene.numerics.walls.method = wavetank::WallMethod::ghost;
       scene.numerics.walls.repulsion = 0.1;
       run(device, scene, {Vector3d::Zero()});
+    }
+    // walls that move, of the kinds that are listed differently
+    for (const int dimensions : {2, 3}) {
+      wavetank::Case scene = column(dimensions, wavetank::DensityDiffusion::fourtakas);
+      scene.numerics.walls.elements = dimensions == 2 ? wavetank::WallElements::numerical : wavetank::WallElements::facet;
+      scene.tank.motion = scene.bodies[0].motion = wavetank::Motion::commanded;
+      Carried mover(dimensions);
+      run(device, scene, {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}, &mover);
     }
     std::set<std::string> kernels;
     for (const auto& timing : device.timings()) kernels.insert(timing.kernel);

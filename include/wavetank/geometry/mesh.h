@@ -31,9 +31,9 @@ struct TriangleMesh {
 /// rotation (π/2, 0, 0). Throws Error for a missing, unreadable, corrupt or empty file, non-finite vertices, a file without triangles, or a
 /// shape that is none.
 /// A shape lies about its own origin, a cylinder's axis along z: shape://box?size=X,Y,Z, shape://sphere?radius=R,
-/// shape://cylinder?radius=R&length=L, of the last two also &facets=N round a circle, a multiple of 4 from 8 to 512, 48 unless given. Its
-/// volume is that of the true shape, so its corners lie a little outside of that and the middles of its facets a little inside: with 48
-/// facets by at most 0.4 % of a sphere's radius and 0.2 % of a cylinder's.
+/// shape://cylinder?radius=R&length=L, of the last two also &facets=N round a circle, a multiple of 4 from 8 to 512, 24 unless given. Its
+/// volume is that of the true shape, so its corners lie a little outside of that and the middles of its facets a little inside: with 24
+/// facets by at most 1.5 % of a sphere's radius and 0.6 % of a cylinder's.
 TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
 
 /// The twelve triangles of a box, wound outwards; without those of the top if it is open.
