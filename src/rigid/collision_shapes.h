@@ -28,16 +28,19 @@ struct ConvexPart {
 struct ShapeRequest {
   const RigidCase* rigid = nullptr;
   const TriangleMesh* mesh = nullptr;
-  bool is_box = false;
+  const MeshSource* source = nullptr;  ///< of the mesh; none of a box
+  bool is_solid = true;                ///< the mesh encloses what the shape stands for, and is not a tank's walls
   int dimensions = 3;
   Vector3d reference = Vector3d::Zero();  ///< m, that the shape will be about
   double spacing = 0;                     ///< m
   double half_width = 0;                  ///< m, in y, of what stands for a section in 2-D
   std::string what;                       ///< opens messages ("body 'hull'")
+  bool is_box() const { return source == nullptr; }
 };
 
-/// The parts of a body's shape; none if it passes through everything. In 2-D they are prisms over the mesh's section with y = 0. Says once,
-/// through the log, where they are an approximation. Throws Error for a body that cannot be a shape, and for parts that cannot be read.
+/// The parts of a body's shape; none if it passes through everything. In 2-D they are prisms over the mesh's section with y = 0; in 3-D
+/// hulls of more than 500 corners are thinned, to 0.02 of the spacing. Says once, through the log, where they are an approximation. Throws
+/// Error for a body that cannot be a shape, and for parts that cannot be read.
 std::vector<ConvexPart> make_shape(const ShapeRequest& request, const std::string& case_directory, const ResourceResolver& resolve);
 
 }  // namespace wavetank

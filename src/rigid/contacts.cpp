@@ -118,11 +118,11 @@ bool ContactFinder::together(int a, int b) const {
   const auto is = [&](const std::pair<int, int>& pair) {
     return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
   };
-  return a != b && std::none_of(apart_.begin(), apart_.end(), is);
+  return bodies_[a].frame != bodies_[b].frame && std::none_of(apart_.begin(), apart_.end(), is);
 }
 
 Contact ContactFinder::make(int a, int b, const Vector3d& point, const Vector3d& normal, double gap) const {
-  Contact contact{bodies_[a].frame, bodies_[b].frame, point, normal, gap, 0, 0};
+  Contact contact{bodies_[a].frame, bodies_[b].frame, a, b, point, normal, gap, 0, 0};
   contact.friction = std::sqrt(bodies_[a].friction * bodies_[b].friction);
   contact.restitution = std::max(bodies_[a].restitution, bodies_[b].restitution);
   return contact;
@@ -143,7 +143,8 @@ std::vector<Contact> ContactFinder::find(const std::vector<RigidState>& states) 
     find_on_walls(placed[p], states, contacts);
     for (std::size_t q = p + 1; q < placed.size(); ++q) {
       const ContactBody& other = bodies_[placed[q].owner];
-      if ((body.free || other.free) && together(body.frame, other.frame) && overlap(placed[p].hull.box, placed[q].hull.box, reach_))
+      if ((body.free || other.free) && overlap(placed[p].hull.box, placed[q].hull.box, reach_) &&
+          together(placed[p].owner, placed[q].owner))
         find_between(placed[p], placed[q], contacts);
     }
   }
@@ -153,16 +154,18 @@ std::vector<Contact> ContactFinder::find(const std::vector<RigidState>& states) 
 void ContactFinder::find_on_walls(const Placed& placed, const std::vector<RigidState>& states, std::vector<Contact>& contacts) const {
   for (const auto& [frame, surface] : walls_) {
     const bool answers = bodies_[placed.owner].free || bodies_[frame].free;
-    if (!answers || !together(bodies_[placed.owner].frame, frame)) continue;
+    if (!answers || bodies_[placed.owner].frame == frame) continue;
     const RigidState& wall = states[frame];
     const Vector3d& reference = bodies_[frame].reference;
     const Quaterniond back = wall.orientation.conjugate();
     std::vector<WallContact> found;
     surface.find(PlacedHull(placed.part->hull, back * placed.turn, back * (placed.place - wall.position) + reference), reach_, found);
     std::vector<Contact> group;
-    for (const WallContact& contact : found)
+    for (const WallContact& contact : found) {
+      if (!together(placed.owner, contact.owner)) continue;
       group.push_back(
           make(placed.owner, contact.owner, wall.moved(contact.point, reference), wall.orientation * contact.normal, contact.gap));
+    }
     add(std::move(group), contacts);
   }
 }

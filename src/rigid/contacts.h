@@ -26,7 +26,7 @@ struct ContactBody {
 /// Finds all contacts of a moment anew: nothing is kept from one search to the next.
 class ContactFinder {
  public:
-  /// `apart`: pairs of owners (frames) that pass through each other.
+  /// `apart`: pairs of owners that pass through each other.
   ContactFinder(std::vector<ContactBody> bodies, const Layout& layout, int dimensions, double half_width,
                 std::vector<std::pair<int, int>> apart);
   ~ContactFinder();

@@ -12,7 +12,8 @@
 namespace wavetank {
 namespace {
 
-constexpr double on_face = 1e-7, one_plane = 2e-6;  // of the size
+constexpr double on_face = 1e-7;    // of the size
+constexpr double one_plane = 20.0;  // times the distance at which a point counts as on a face
 
 struct Triangle {
   int corner[3];
@@ -23,10 +24,11 @@ struct Triangle {
   bool alive = true;
 };
 
-/// The quickhull algorithm: takes in the point farthest from a face, until none is outside.
+/// The quickhull algorithm: takes in the point farthest from a face, until none is outside by more than may be left out.
 class Quickhull {
  public:
-  Quickhull(const std::vector<Vector3d>& points, double tolerance) : points_(points), tolerance_(tolerance) {}
+  Quickhull(const std::vector<Vector3d>& points, double tolerance, double left_out)
+      : points_(points), tolerance_(tolerance), left_out_(std::max(tolerance, left_out)) {}
 
   /// Whether the points enclose anything.
   bool run() {
@@ -86,7 +88,7 @@ class Quickhull {
   void hand_out(const std::vector<int>& points, std::size_t first) {
     for (const int point : points) {
       for (std::size_t t = first; t < triangles_.size(); ++t) {
-        if (!triangles_[t].alive || height(triangles_[t], point) <= tolerance_) continue;
+        if (!triangles_[t].alive || height(triangles_[t], point) <= left_out_) continue;
         triangles_[t].outside.push_back(point);
         break;
       }
@@ -134,7 +136,7 @@ class Quickhull {
   }
 
   const std::vector<Vector3d>& points_;
-  double tolerance_;
+  double tolerance_, left_out_;
   std::vector<Triangle> triangles_;
 };
 
@@ -228,7 +230,7 @@ Box ConvexHull::bounding_box() const {
   return box;
 }
 
-ConvexHull convex_hull(const std::vector<Vector3d>& points, const std::string& what) {
+ConvexHull convex_hull(const std::vector<Vector3d>& points, const std::string& what, const HullPrecision& precision) {
   if (points.empty()) throw Error(what + " has no points, so that it has no shape for contacts");
   Box box{points.front(), points.front()};
   for (const Vector3d& point : points) {
@@ -236,10 +238,11 @@ ConvexHull convex_hull(const std::vector<Vector3d>& points, const std::string& w
     box.max = box.max.cwiseMax(point);
   }
   const double size = (box.max - box.min).norm();
-  Quickhull quickhull(points, on_face * size);
+  const double tolerance = std::max(on_face * size, precision.rounding);
+  Quickhull quickhull(points, tolerance, precision.left_out);
   if (!(size > 0) || !quickhull.run()) throw Error(what + " is flat and encloses nothing, so that it has no shape for contacts");
   ConvexHull hull;
-  hull.faces = merge(quickhull.triangles(), points, one_plane * size);
+  hull.faces = merge(quickhull.triangles(), points, one_plane * tolerance);
   find_volume(hull, quickhull.triangles(), points);
   std::map<int, int> renumbered;
   for (ConvexHull::Face& face : hull.faces) {

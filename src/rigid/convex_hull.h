@@ -29,9 +29,14 @@ struct ConvexHull {
   Box bounding_box() const;
 };
 
-/// Of points in any order. Points within 1e-7 of the size of a face count as on it, and triangles that lie in one plane within 2e-6 are one
-/// face: the resolution of float32 files. `what` opens the message. Throws Error if they enclose next to nothing.
-ConvexHull convex_hull(const std::vector<Vector3d>& points, const std::string& what);
+struct HullPrecision {
+  double rounding = 0;  ///< m, by which the points may be off
+  double left_out = 0;  ///< m, by which points may stick out that the hull does not take in
+};
+
+/// Of points in any order. Points within the rounding of a face, at least 1e-7 of the size, count as on it, and triangles that lie in one
+/// plane within 20 times that are one face. `what` opens the message. Throws Error if they enclose next to nothing.
+ConvexHull convex_hull(const std::vector<Vector3d>& points, const std::string& what, const HullPrecision& precision = {});
 
 /// The hull with all of its faces moved inwards; its faces are not kept.
 std::vector<Vector3d> shrunk(const ConvexHull& hull, double distance);

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "section.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -105,7 +106,7 @@ Stretches within(const std::vector<ConvexHull>& parts, double x, double y) {
 
 }  // namespace
 
-std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, const std::string& what) {
+std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, const HullPrecision& precision, const std::string& what) {
   TriangleMesh coarse = mesh;
   for (double cell = 0.25 * spacing; coarse.triangles.size() > many_triangles; cell *= 1.25) coarse = coarsened(mesh, cell);
   std::vector<HACD::Vec3<HACD::Real>> points;
@@ -137,7 +138,7 @@ std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, cons
     std::vector<Vector3d> vertices;
     for (const auto& corner : corners) vertices.emplace_back(corner.X(), corner.Y(), corner.Z());
     try {
-      parts.push_back(convex_hull(vertices, what));
+      parts.push_back(convex_hull(vertices, what, precision));
     } catch (const Error&) {
       // A patch of the surface that is flat by itself: what it lacks is counted in the difference of volume, and told.
     }
@@ -146,26 +147,35 @@ std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, cons
   return parts;
 }
 
-VolumeDifference volume_difference(const TriangleMesh& mesh, const std::vector<ConvexHull>& parts) {
+VolumeDifference volume_difference(const TriangleMesh& mesh, const std::vector<ConvexHull>& parts, int dimensions) {
   Box box = mesh.bounding_box();
   for (const ConvexHull& part : parts) {
     const Box own = part.bounding_box();
     box.min = box.min.cwiseMin(own.min);
     box.max = box.max.cwiseMax(own.max);
   }
-  constexpr int lines = 64;  // along either axis
-  const Vector3d step = (box.max - box.min) / lines;
   double held = 0, lacking = 0, added = 0;
-  for (int i = 0; i < lines; ++i)
-    for (int j = 0; j < lines; ++j) {
-      // A little off the middle of its cell, so that lines do not run along faces and edges that lie there.
-      const double x = box.min.x() + (i + 0.5003) * step.x(), y = box.min.y() + (j + 0.4997) * step.y();
-      const Stretches in_mesh = within(mesh, x, y), in_parts = within(parts, x, y);
-      const double common = common_length(in_mesh, in_parts);
-      held += length(in_mesh);
-      lacking += length(in_mesh) - common;
-      added += length(in_parts) - common;
-    }
+  const auto compare = [&](const Stretches& in_mesh, const Stretches& in_parts) {
+    const double common = common_length(in_mesh, in_parts);
+    held += length(in_mesh);
+    lacking += length(in_mesh) - common;
+    added += length(in_parts) - common;
+  };
+  // A little off the middle of its cell, so that lines do not run along faces and edges that lie there.
+  const int lines = dimensions == 2 ? 1024 : 64;  // along each axis
+  const Vector3d step = (box.max - box.min) / lines;
+  std::vector<double> abscissae;
+  for (int i = 0; i < lines; ++i) abscissae.push_back(box.min.x() + (i + 0.5003) * step.x());
+  if (dimensions == 2) {
+    const std::vector<Stretches> in_mesh = section_along(mesh, abscissae);
+    for (int i = 0; i < lines; ++i) compare(in_mesh[i], within(parts, abscissae[i], 0));
+  } else {
+    for (const double x : abscissae)
+      for (int j = 0; j < lines; ++j) {
+        const double y = box.min.y() + (j + 0.4997) * step.y();
+        compare(within(mesh, x, y), within(parts, x, y));
+      }
+  }
   const double whole = std::max(held, 1e-300);
   const auto fraction = [&](double part) { return part > 1e-9 * whole ? part / whole : 0.0; };
   return {fraction(lacking), fraction(added)};

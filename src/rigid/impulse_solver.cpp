@@ -26,6 +26,8 @@ class ImpulseSolver::Rows : public btSequentialImpulseConstraintSolver {
  protected:
   btScalar solveGroupCacheFriendlySetup(btCollisionObject**, int, btPersistentManifold**, int, btTypedConstraint**, int,
                                         const btContactSolverInfo&, btIDebugDraw*) override;
+  void solveGroupCacheFriendlySplitImpulseIterations(btCollisionObject**, int, btPersistentManifold**, int, btTypedConstraint**, int,
+                                                     const btContactSolverInfo&, btIDebugDraw*) override;
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject**, int, const btContactSolverInfo&) override;
 
  private:
@@ -37,6 +39,8 @@ class ImpulseSolver::Rows : public btSequentialImpulseConstraintSolver {
   void fill(btSolverConstraint& row, int a, int b, const Vector3d& linear, const Vector3d& angular_a, const Vector3d& angular_b) const;
   /// What the row measures of the velocities without contacts and joints.
   double measured(const btSolverConstraint& row) const;
+  /// One row's turn in finding the push velocities; returns by how much it has changed what the row measures of them.
+  double push(btSolverConstraint& row);
 
   btEmptyShape shape_;
   btRigidBody mark_;  ///< that a solver body answers to impulses; nothing of it is used
@@ -93,6 +97,7 @@ void ImpulseSolver::Rows::add_joints() {
     btSolverConstraint& row = m_tmpSolverNonContactConstraintPool.expandNonInitializing();
     fill(row, joint.a, joint.b, joint.linear, joint.angular_a, joint.angular_b);
     row.m_rhs = (joint.target - measured(row)) * row.m_jacDiagABInv;
+    row.m_rhsPenetration = joint.push * row.m_jacDiagABInv;
     row.m_lowerLimit = joint.least_impulse;
     row.m_upperLimit = joint.greatest_impulse;
   }
@@ -159,6 +164,35 @@ btScalar ImpulseSolver::Rows::solveGroupCacheFriendlySetup(btCollisionObject**, 
   number(m_orderTmpConstraintPool, m_tmpSolverContactConstraintPool.size());
   number(m_orderFrictionConstraintPool, m_tmpSolverContactFrictionConstraintPool.size());
   return 0;
+}
+
+double ImpulseSolver::Rows::push(btSolverConstraint& row) {
+  if (row.m_jacDiagABInv == 0) return 0;
+  btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+  const double speed = row.m_contactNormal1.dot(a.internalGetPushVelocity()) + row.m_relpos1CrossNormal.dot(a.internalGetTurnVelocity()) +
+                       row.m_contactNormal2.dot(b.internalGetPushVelocity()) + row.m_relpos2CrossNormal.dot(b.internalGetTurnVelocity());
+  const double before = row.m_appliedPushImpulse;
+  const double after = std::clamp<double>(before + row.m_rhsPenetration - speed * row.m_jacDiagABInv, row.m_lowerLimit, row.m_upperLimit);
+  row.m_appliedPushImpulse = after;
+  a.internalApplyPushImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA, after - before);
+  b.internalApplyPushImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB, after - before);
+  return (after - before) / row.m_jacDiagABInv;
+}
+
+/// As Bullet's, but with the joints: what is pushed out of an overlap or back to a limit takes along what hangs on it.
+void ImpulseSolver::Rows::solveGroupCacheFriendlySplitImpulseIterations(btCollisionObject**, int, btPersistentManifold**, int,
+                                                                        btTypedConstraint**, int, const btContactSolverInfo& info,
+                                                                        btIDebugDraw*) {
+  for (int iteration = 0; iteration < info.m_numIterations; ++iteration) {
+    double greatest = 0;
+    const auto take_turn = [&](btSolverConstraint& row, bool two_sided) {
+      if (two_sided || row.m_rhsPenetration != 0) greatest = std::max(greatest, std::abs(push(row)));
+    };
+    for (std::size_t k = 0; k < joints->size(); ++k)
+      take_turn(m_tmpSolverNonContactConstraintPool[static_cast<int>(k)], !(*joints)[k].one_sided());
+    for (int k = 0; k < m_tmpSolverContactConstraintPool.size(); ++k) take_turn(m_tmpSolverContactConstraintPool[k], false);
+    if (greatest * greatest <= info.m_leastSquaresResidualThreshold) break;
+  }
 }
 
 btScalar ImpulseSolver::Rows::solveGroupCacheFriendlyFinish(btCollisionObject**, int, const btContactSolverInfo&) {

@@ -20,25 +20,28 @@ struct SolverBody {
 /// One point of contact between bodies a and b.
 struct Contact {
   int a = 0, b = 0;
+  int owner_a = 0, owner_b = 0;        ///< whose shapes touch, each fixed to its body
   Vector3d point = Vector3d::Zero();   ///< m
   Vector3d normal = Vector3d::Zero();  ///< unit, from b to a
   double gap = 0;                      ///< m; negative: they overlap
   double friction = 0, restitution = 0;
 };
 
-/// linear · (v_a − v_b) + angular_a · ω_a − angular_b · ω_b shall be `target` after the step, by an impulse within bounds.
+/// linear · (v_a − v_b) + angular_a · ω_a − angular_b · ω_b shall be `target` after the step, by an impulse within bounds. What leads it
+/// back to a limit that it has passed is `push`, of which no velocity stays.
 struct JointRow {
   int a = 0, b = 0;
   Vector3d linear = Vector3d::Zero(), angular_a = Vector3d::Zero(), angular_b = Vector3d::Zero();
-  double target = 0;
+  double target = 0, push = 0;
   double least_impulse = -1e300, greatest_impulse = 1e300;
   bool one_sided() const { return least_impulse == 0 || greatest_impulse == 0; }
 };
 
 struct BodyChange {
   Vector3d velocity = Vector3d::Zero(), angular_velocity = Vector3d::Zero();
-  Vector3d push = Vector3d::Zero(), turn = Vector3d::Zero();  ///< m/s, rad/s: move it during this step only, out of overlaps
-  bool touched = false;                                       ///< by a contact or at a joint's limit
+  Vector3d push = Vector3d::Zero(),
+           turn = Vector3d::Zero();  ///< m/s, rad/s: move it during this step only, out of overlaps and back to limits
+  bool touched = false;              ///< by a contact or at a joint's limit
 };
 
 /// How one step is to be solved.

@@ -87,6 +87,12 @@ Joint::Joint(const JointCase& joint, const JointEnd& child, const JointEnd& pare
   if (has_axis) bounds_.push_back(joint.limits ? Bounds{(*joint.limits)[0], (*joint.limits)[1]} : Bounds{-infinite, infinite});
 }
 
+bool Joint::holds_together() const {
+  if (joint_.type == JointType::spring) return false;
+  if (joint_.type != JointType::six_dof) return true;
+  return std::all_of(bounds_.begin(), bounds_.begin() + (dimensions_ == 2 ? 2 : 3), [](const Bounds& bounds) { return bounds.locked(); });
+}
+
 Joint::Coordinate Joint::along(const Vector3d& direction, const std::vector<RigidState>& states) const {
   const RigidState &child = states[child_.frame], &parent = states[parent_.frame];
   const Vector3d end = child.moved(joint_.point, child_.reference), n = parent.orientation * direction;
@@ -164,7 +170,8 @@ std::vector<Joint::Coordinate> Joint::bounded(const std::vector<RigidState>& sta
       if (!plane || k != 1) result.push_back(along(directions.col(k), states));
   }
   if (joint_.type == JointType::fixed || joint_.type == JointType::slider) add_turns(turns(states));
-  if (joint_.type == JointType::six_dof) add_turns(rotations(states));
+  if (joint_.type == JointType::six_dof && plane) result.push_back(free_one(states));
+  if (joint_.type == JointType::six_dof && !plane) add_turns(rotations(states));
   if (joint_.type == JointType::hinge && !plane)
     for (const Vector3d& direction : across(axis_, dimensions_)) result.push_back(tilt(direction, states));
   if (joint_.type == JointType::hinge || joint_.type == JointType::slider) result.push_back(free_one(states));
@@ -218,20 +225,16 @@ void Joint::add_rows(const StepStates& states, const std::vector<Inertia>& inert
       rows.push_back(row);
       continue;
     }
-    // As a contact: what is apart may come together in this step, and what has gone beyond is led back.
-    const auto approach = [&](double gap) { return gap > 0 ? -gap / time_step : -gap * correction / time_step; };
-    if (!std::isinf(bounds.least)) {
-      row.target = approach(value - bounds.least);
-      row.least_impulse = 0;
-      row.greatest_impulse = 1e300;
+    // As a contact: what is apart may come together in this step, and what has gone beyond is pushed back.
+    const auto limit = [&](double gap, double side) {
+      row.target = side * -std::max(gap, 0.0) / time_step;
+      row.push = side * std::max(-gap, 0.0) * correction / time_step;
+      row.least_impulse = side > 0 ? 0 : -1e300;
+      row.greatest_impulse = side > 0 ? 1e300 : 0;
       rows.push_back(row);
-    }
-    if (!std::isinf(bounds.greatest)) {
-      row.target = -approach(bounds.greatest - value);
-      row.least_impulse = -1e300;
-      row.greatest_impulse = 0;
-      rows.push_back(row);
-    }
+    };
+    if (!std::isinf(bounds.least)) limit(value - bounds.least, 1);
+    if (!std::isinf(bounds.greatest)) limit(bounds.greatest - value, -1);
   }
 }
 
@@ -281,7 +284,7 @@ JointState Joint::state(const std::vector<RigidState>& states) const {
 }
 
 void Joint::follow(const std::vector<RigidState>& states) {
-  if (joint_.type == JointType::hinge) angle = free_one(states).value;
+  if (joint_.type == JointType::hinge || (joint_.type == JointType::six_dof && dimensions_ == 2)) angle = free_one(states).value;
 }
 
 }  // namespace wavetank

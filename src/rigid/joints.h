@@ -13,7 +13,8 @@ namespace wavetank {
 
 /// An end of a joint: what it moves with, and the reference point of that as the case's geometry has it.
 struct JointEnd {
-  int frame = 0;  ///< an owner, or the world, which comes after the last
+  int owner = 0;  ///< the tank, a body, or the world, which comes after the last
+  int frame = 0;  ///< that it moves with: itself, or the tank where it is fixed
   Vector3d reference = Vector3d::Zero();
 };
 
@@ -29,18 +30,20 @@ class Joint {
   /// Throws Error where the joint's numbers do not fit each other.
   Joint(const JointCase& joint, const JointEnd& child, const JointEnd& parent, int dimensions);
 
-  int child() const { return child_.frame; }
-  int parent() const { return parent_.frame; }
+  const JointEnd& child() const { return child_; }
+  const JointEnd& parent() const { return parent_; }
+  /// Whether its ends stay at one place of each other, or on one line, so that the bodies have to pass through each other about it.
+  bool holds_together() const;
   void add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, double correction,
                 std::vector<JointRow>& rows) const;
   /// Adds the forces of its spring and damper. Implicit in the joint's own motion, so that no stiffness or damping is unstable by itself.
   void add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, std::vector<RigidLoad>& loads) const;
 
   JointState state(const std::vector<RigidState>& states) const;
-  /// Counts a hinge's turns; to be called after every step.
+  /// Counts turns; to be called after every step.
   void follow(const std::vector<RigidState>& states);
 
-  double angle = 0;  ///< rad, of a hinge at the last step: all that a joint remembers
+  double angle = 0;  ///< rad, of a hinge, or of six_dof in 2-D, at the last step: all that a joint remembers
 
  private:
   /// A coordinate of the child relative to the parent and how it answers to velocities.
@@ -57,10 +60,10 @@ class Joint {
 
   Coordinate along(const Vector3d& direction, const std::vector<RigidState>& states) const;  ///< fixed to the parent
   Coordinate tilt(const Vector3d& direction, const std::vector<RigidState>& states) const;   ///< of a hinge's axis
-  std::array<Coordinate, 3> rotations(const std::vector<RigidState>& states) const;          ///< roll, pitch, yaw
+  std::array<Coordinate, 3> rotations(const std::vector<RigidState>& states) const;          ///< roll, pitch, yaw, in 3-D
   std::array<Coordinate, 3> turns(const std::vector<RigidState>& states) const;              ///< small, about the axes
   Coordinate stretched(const std::vector<RigidState>& states) const;                         ///< a spring's length
-  Coordinate free_one(const std::vector<RigidState>& states) const;                          ///< of hinge and slider
+  Coordinate free_one(const std::vector<RigidState>& states) const;                          ///< of hinge and slider, and pitch in 2-D
   std::vector<Coordinate> bounded(const std::vector<RigidState>& states, const Eigen::Matrix3d& axes) const;
   Eigen::Matrix3d settled_axes(const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
   double answer(const Coordinate& a, const Coordinate& b, const std::vector<RigidState>& states,

@@ -196,13 +196,15 @@ MassProperties mass_properties(const RigidCase& rigid, const TriangleMesh& mesh,
   if (!free && !rigid.mass && !rigid.density) return result;
 
   result.mass = mass_of(rigid, result.volume, what);
-  if (!enclosed && !(rigid.mass && rigid.centre_of_mass && rigid.inertia)) {
+  if (free && !enclosed && !(rigid.mass && rigid.centre_of_mass && rigid.inertia)) {
     throw Error(what + ": the mesh '" + mesh.name + "' is not closed, is wound inwards or encloses next to nothing" +
                 (dimensions == 2 ? " in the plane y = 0" : "") +
                 ", so that its mass, centre of mass and inertia cannot be found; give all three");
   }
-  result.inertia =
-      rigid.inertia ? given_inertia(*rigid.inertia, dimensions, what) : Eigen::Matrix3d(result.mass / enclosed->volume * enclosed->inertia);
+  if (rigid.inertia)
+    result.inertia = given_inertia(*rigid.inertia, dimensions, what);
+  else if (enclosed)
+    result.inertia = result.mass / enclosed->volume * enclosed->inertia;
   return result;
 }
 

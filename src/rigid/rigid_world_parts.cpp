@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "start_checks.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -15,12 +16,14 @@ constexpr double slop_of_spacing = 0.01, rebound_of_spacing = 0.01;
 constexpr int contact_iterations = 240, joint_iterations = 300;
 
 JointEnd end_of(const std::string& name, const std::string& joint, const Case& scene, const std::vector<RigidOwner>& owners) {
-  if (name == "world") return {static_cast<int>(owners.size()), Vector3d::Zero()};
-  if (name == "tank") return {0, owners[0].reference};
+  const int world = static_cast<int>(owners.size());
+  if (name == "world") return {world, world, Vector3d::Zero()};
+  if (name == "tank") return {0, 0, owners[0].reference};
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].name != name) continue;
-    if (owners[b + 1].motion == Motion::fixed) return {0, owners[0].reference};  // it is part of the tank
-    return {static_cast<int>(b + 1), owners[b + 1].reference};
+    const int owner = static_cast<int>(b + 1);
+    if (owners[owner].motion == Motion::fixed) return {owner, 0, owners[0].reference};  // it is part of the tank
+    return {owner, owner, owners[owner].reference};
   }
   throw Error("joint '" + joint + "' names '" + name + "', which is no body of the case; name one, tank or world");
 }
@@ -32,8 +35,10 @@ RigidWorld::Parts::Parts(const Case& scene, const Layout& layout, const Resource
   for (const RigidOwner& owner : owners) inertias.push_back(owner.inertia);
   inertias.emplace_back();  // the world
   make_joints(scene);
-  if (std::any_of(owners.begin(), owners.end(), [](const RigidOwner& owner) { return owner.is_free(); }))
-    make_contacts(scene, layout, resolve);
+  if (std::none_of(owners.begin(), owners.end(), [](const RigidOwner& owner) { return owner.is_free(); })) return;
+  check_places(scene, layout, owners, joints);
+  make_contacts(scene, layout, resolve);
+  tell_of_overlaps(contacts->find(present()), owners, spacing);
 }
 
 void RigidWorld::Parts::make_joints(const Case& scene) {
@@ -63,12 +68,14 @@ void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, c
     body.reference = owners[o].reference;
     body.friction = rigid.friction;
     body.restitution = rigid.restitution;
-    body.as_walls = rigid.collision != CollisionShape::none && (o == 0 || (!body.free && rigid.collision == CollisionShape::automatic));
-    if (body.as_walls || o == 0) continue;
+    const bool as_listed = rigid.collision == CollisionShape::parts || rigid.collision == CollisionShape::none;
+    body.as_walls = o == 0 ? !as_listed : !body.free && rigid.collision == CollisionShape::automatic;
+    if (body.as_walls) continue;
     ShapeRequest request;
     request.rigid = &rigid;
     request.mesh = &layout.meshes[o];
-    request.is_box = std::holds_alternative<Box>(scene.bodies[o - 1].shape);
+    request.is_solid = o > 0;
+    if (o > 0) request.source = std::get_if<MeshSource>(&scene.bodies[o - 1].shape);
     request.dimensions = dimensions;
     request.reference = owners[o].reference;
     request.spacing = spacing;
@@ -77,7 +84,8 @@ void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, c
     body.parts = make_shape(request, scene.directory, resolve);
   }
   std::vector<std::pair<int, int>> apart;
-  for (const Joint& joint : joints) apart.emplace_back(joint.child(), joint.parent());
+  for (const Joint& joint : joints)
+    if (joint.holds_together()) apart.emplace_back(joint.child().owner, joint.parent().owner);
   contacts = std::make_unique<ContactFinder>(std::move(bodies), layout, dimensions, half_width, std::move(apart));
 }
 
@@ -100,8 +108,26 @@ std::vector<RigidState> RigidWorld::Parts::ahead(double time, double step) const
       states.push_back(owner.is_free() ? moved_on(owner.state, step) : owner.state);
     }
   }
+  ride(states);
+  return states;
+}
+
+void RigidWorld::Parts::ride(std::vector<RigidState>& states) const {
   for (std::size_t o = 1; o < owners.size(); ++o)
     if (frame_of(o) == 0) states[o] = riding(states[0], owners[0].reference, owners[o].reference);
+}
+
+std::vector<RigidState> RigidWorld::Parts::at_middle(double time, double time_step) const {
+  std::vector<RigidState> states = ahead(time, 0.5 * time_step);
+  for (std::size_t o = 0; o < owners.size(); ++o) {
+    if (!owners[o].commanded) continue;
+    // A velocity that jumps does so within the half step, but what feels the acceleration feels it for all of the step.
+    CommandedMotion copy = *owners[o].commanded;
+    const RigidState& end = copy.advance(time, time_step);
+    states[o].acceleration = end.acceleration;
+    states[o].angular_acceleration = end.angular_acceleration;
+  }
+  ride(states);
   return states;
 }
 
@@ -172,8 +198,9 @@ std::vector<BodyChange> RigidWorld::Parts::changes(double time_step, const StepS
   for (std::size_t pass = 0; pass < joints.size(); ++pass)
     for (const Joint& joint : joints) {
       const auto joined = [&](int frame) { return inertias[frame].mass > 0; };
-      if (!joined(joint.child()) || !joined(joint.parent())) continue;
-      result[joint.child()].touched = result[joint.parent()].touched = result[joint.child()].touched || result[joint.parent()].touched;
+      const int child = joint.child().frame, parent = joint.parent().frame;
+      if (!joined(child) || !joined(parent)) continue;
+      result[child].touched = result[parent].touched = result[child].touched || result[parent].touched;
     }
   return result;
 }

@@ -26,6 +26,9 @@ struct RigidWorld::Parts {
   }
   std::vector<RigidState> present() const;
   std::vector<RigidState> ahead(double time, double step) const;
+  /// Gives what is fixed to the tank the tank's motion.
+  void ride(std::vector<RigidState>& states) const;
+  std::vector<RigidState> at_middle(double time, double time_step) const;
   std::vector<RigidLoad> loads(double time, double time_step, const std::vector<RigidLoad>& fluid, const StepStates& states) const;
   std::vector<BodyChange> changes(double time_step, const StepStates& states, const std::vector<RigidState>& given,
                                   const std::vector<FreeMotion>& motions) const;

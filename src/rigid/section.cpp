@@ -10,7 +10,7 @@
 namespace wavetank {
 namespace {
 
-constexpr double merge_excess = 1e-3;  // of the whole area: what two polygons' common hull may hold more than they do
+constexpr double merge_excess = 1e-3;  // of their area: what the hull of bands taken together may hold more than they do
 
 struct Segment {
   Vector3d left, right;  ///< by x
@@ -121,22 +121,40 @@ std::vector<std::vector<Vector3d>> convex_polygons(const TriangleMesh& mesh) {
     }
   }
   std::vector<std::vector<Vector3d>> merged;
+  std::vector<double> own_areas;  // of the bands in each, so that what many merges add is bounded, not what each of them does
   for (const std::vector<Vector3d>& band : all) {
     const double area = area_of(band);
     if (area <= 1e-9 * whole) continue;
     bool taken = false;
-    for (std::vector<Vector3d>& polygon : merged) {
-      std::vector<Vector3d> both = polygon;
+    for (std::size_t m = 0; m < merged.size() && !taken; ++m) {
+      std::vector<Vector3d> both = merged[m];
       both.insert(both.end(), band.begin(), band.end());
       both = plane_hull(both);
-      taken = area_of(both) - area_of(polygon) - area <= merge_excess * whole;
+      const double own_area = own_areas[m] + area;
+      taken = area_of(both) - own_area <= merge_excess * own_area;
       if (!taken) continue;
-      polygon = both;
-      break;
+      merged[m] = both;
+      own_areas[m] = own_area;
     }
-    if (!taken) merged.push_back(plane_hull(band));
+    if (taken) continue;
+    merged.push_back(plane_hull(band));
+    own_areas.push_back(area);
   }
   return merged;
+}
+
+std::vector<std::vector<std::pair<double, double>>> section_along(const TriangleMesh& mesh, const std::vector<double>& abscissae) {
+  const std::vector<Segment> segments = section(mesh);
+  std::vector<std::vector<std::pair<double, double>>> lines;
+  for (const double x : abscissae) {
+    std::vector<double> crossings;
+    for (const Segment& segment : segments)
+      if (segment.left.x() <= x && segment.right.x() > x) crossings.push_back(segment.z(x));
+    std::sort(crossings.begin(), crossings.end());
+    lines.emplace_back();
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) lines.back().emplace_back(crossings[k], crossings[k + 1]);
+  }
+  return lines;
 }
 
 }  // namespace wavetank

@@ -183,14 +183,17 @@ bool WallSurface::search_edges(const WallFacet& facet, const PlacedHull& hull, d
     const Vector3d along = (facet.corners[(s + 1) % facet.corners.size()] - corner).normalized();
     for (std::size_t e = 0; e < hull.hull->edges.size(); ++e) {
       const ConvexHull::Edge& edge = hull.hull->edges[e];
-      const Vector3d line = (hull.vertices[edge.to] - hull.vertices[edge.from]).normalized();
-      const Vector3d left = hull.normals[edge.left], right = hull.normals[edge.right], turn = left.cross(right);
-      Vector3d axis = along.cross(line);
-      if (axis.norm() < 1e-3) continue;  // parallel: a face's normal does
-      axis.normalize();
-      for (const Vector3d& direction : {axis, Vector3d(-axis)}) {
+      const Vector3d line = hull.vertices[edge.to] - hull.vertices[edge.from];
+      const Vector3d &left = hull.normals[edge.left], &right = hull.normals[edge.right];
+      const Vector3d axis = along.cross(line);
+      // Only few edges touch first along ±axis: those with it between their faces' normals. They are sorted out before all else.
+      const double to_left = left.dot(axis), to_right = right.dot(axis), cosine = left.dot(right);
+      for (const double sign : {1.0, -1.0}) {
+        if (sign * (to_right - cosine * to_left) > 0 || sign * (to_left - cosine * to_right) > 0) continue;
+        const double size = axis.norm();
+        if (size < 1e-3 * line.norm()) continue;  // parallel: a face's normal does
+        const Vector3d direction = sign / size * axis;
         if (!facet.sides[s].faces(direction)) continue;
-        if (left.cross(-direction).dot(turn) < 0 || (-direction).cross(right).dot(turn) < 0) continue;
         const double gap = direction.dot(hull.vertices[edge.from] - corner);
         if (gap > reach) return false;
         if (gap > best.gap + 1e-3 * shallow_) best = {direction, gap, -1, static_cast<int>(s), static_cast<int>(e)};

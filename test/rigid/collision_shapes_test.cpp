@@ -83,6 +83,30 @@ TEST_F(Notch, OfListedPartsIsOpen) {
       << logged.lines[0];
 }
 
+TEST(CollisionShapes, ATanksListedPartsStandForItsWalls) {
+  const ScratchDirectory scratch;
+  for (const double width : {2.0, 0.0}) {
+    Case scene = dry_case({3, width, 2}, spacing);
+    const Vector3d middle(1, 0.5 * width, 1);
+    scene.bodies = {free_box("peg", middle, {0.3, 0.15 * width, 0.3})};
+    scene.tank.rigid.collision = CollisionShape::parts;
+    MeshSource deck;  // above the floor
+    deck.uri = scratch.write("deck.obj", obj_text(box_mesh({{0, -1, 0}, {3, 1, 0.4}}, false, "deck")));
+    deck.translation.y() = 0.5 * width;
+    scene.tank.rigid.collision_parts = {deck};
+    const Logged logged;
+    Trial run(scene, 5e-4);
+    run.until(1);
+    EXPECT_NEAR(run.world.state(1).position.z(), 0.55, 0.02 * spacing) << "width " << width;
+    EXPECT_TRUE(logged.lines.empty()) << logged.lines[0];
+    scene.tank.motion = Motion::prescribed;
+    scene.tank.rigid.prescribed.ramps = {RampCase{Direction::heave, 0.3, 0, 1}};
+    Trial lifted(scene, 5e-4);
+    lifted.until(1.5);
+    EXPECT_NEAR(lifted.world.state(1).position.z(), 0.85, 0.03 * spacing) << "the parts have not moved with the tank";
+  }
+}
+
 TEST(CollisionShapes, AFinelyCutRingKeepsItsHole) {
   const ScratchDirectory scratch;
   const Logged logged;

@@ -125,11 +125,23 @@ TEST(Contacts, AFreeTankAndABoxInItKeepTheirMomentum) {
   scene.bodies[0].rigid.restitution = 1;
   Trial run(scene, 2e-4);
   const double mass = run.world.properties(1).mass;
+  const auto spin = [&] {
+    Vector3d sum = Vector3d::Zero();
+    for (const std::size_t o : {0, 1}) {
+      const RigidState state = run.world.state(o);
+      const Eigen::Matrix3d turn = state.orientation.toRotationMatrix();
+      sum += run.world.properties(o).mass * state.position.cross(state.velocity) +
+             turn * run.world.properties(o).inertia * turn.transpose() * state.angular_velocity;
+    }
+    return sum;
+  };
+  const Vector3d spin_before = spin();
   run.until(1);
   EXPECT_GT(run.world.state(0).velocity.x(), 0.1) << "the box has not hit the tank";
   run.until(5);
   const Vector3d momentum = mass * run.world.state(1).velocity + 50 * run.world.state(0).velocity;
   EXPECT_LT((momentum - mass * Vector3d(2, 0.3, -0.4)).norm(), 1e-9);
+  EXPECT_LT((spin() - spin_before).norm(), 1e-3 * spin_before.norm());
   EXPECT_LT((run.world.state_in_tank(1).position - Vector3d(4, 1, 1)).cwiseAbs().x(), 4);
 }
 

@@ -308,6 +308,146 @@ TEST(Joints, AChainGoesOnFromSavedBytesBitForBit) {
   EXPECT_LT(whole.world.state(4).position.z(), 1.5) << "the chain has not fallen, so that the test says little";
 }
 
+// A start outside of the limits is refused in a case; here it stands for any drift.
+TEST(Joints, ALimitLeadsBackWithoutAVelocityThatStays) {
+  for (const JointType type : {JointType::slider, JointType::hinge})
+    for (const double side : {1.0, -1.0}) {
+      Case scene = hanging({2, 2, 2}, {0.1, 0.2, 1.0});
+      scene.gravity = Vector3d::Zero();
+      scene.joints = {joint_of(type, {2, 2, 2.5}, type == JointType::slider ? Vector3d::UnitX() : Vector3d::UnitY())};
+      scene.joints[0].limits = {0.02, 0.5};
+      if (side < 0) scene.joints[0].limits = {-0.5, -0.02};
+      Trial run(scene, 2e-4);
+      run.until(0.2);
+      const JointState state = run.world.joint_state(0);
+      EXPECT_NEAR(state.position, 0.02 * side, 1e-6) << static_cast<int>(type);
+      EXPECT_NEAR(state.velocity, 0, 1e-5) << static_cast<int>(type);
+      const Vector3d top = run.world.state(1).moved({2, 2, 2.5}, run.world.reference(1));
+      if (type == JointType::hinge) EXPECT_LT((top - Vector3d(2, 2, 2.5)).norm(), 1e-6) << "it has been pushed off its hinge";
+    }
+}
+
+TEST(Joints, ALimitPushesAlongWhatHangsOnTheBody) {
+  Case scene = hanging({2, 2, 2}, {0.1, 0.2, 1.0});
+  scene.gravity = Vector3d::Zero();
+  scene.bodies.push_back(free_box("tip", {2, 2, 1.3}, {0.1, 0.2, 0.4}));
+  scene.bodies[1].rigid.collision = CollisionShape::none;
+  scene.joints = {joint_of(JointType::slider, {2, 2, 2.5}, Vector3d::UnitX()), joint_of(JointType::fixed, {2, 2, 1.5})};
+  scene.joints[0].limits = {0.02, 0.5};
+  scene.joints[1].name = "weld";
+  scene.joints[1].child = "tip";
+  scene.joints[1].parent = "bob";
+  Trial run(scene, 2e-4);
+  double greatest = 0;
+  run.until(0.2, [&] {
+    const Vector3d apart = run.world.state(1).position - run.world.state(2).position - Vector3d(0, 0, 0.7);
+    greatest = std::max(greatest, apart.norm());
+  });
+  EXPECT_NEAR(run.world.joint_state(0).position, 0.02, 1e-6);
+  EXPECT_LT(run.world.state(1).velocity.norm() + run.world.state(2).velocity.norm(), 1e-6);
+  EXPECT_LT(greatest, 1e-6) << "the weld has given way";
+}
+
+TEST(Joints, InTwoDimensionsSixDegreesCountTheTurnsOfPitch) {
+  Case scene = dry_case({4, 0, 3}, 0.25);
+  scene.gravity = Vector3d::Zero();
+  scene.bodies = {free_box("bob", {2, 0, 1.5}, {0.4, 0, 0.2})};
+  scene.joints = {joint_of(JointType::six_dof, {2, 0, 1.5})};
+  auto& limits = scene.joints[0].six_limits;
+  limits[0] = {{0, 0}};
+  limits[2] = {{-0.1, 0.1}};
+  for (const double greatest : {1.0, 2.5, 7.0}) {  // rad: within a quarter of a turn, a half, and more than one
+    limits[4] = {{-0.5, greatest}};
+    scene.bodies[0].rigid.angular_velocity = {0, 3, 0};
+    Trial run(scene, 1e-3);
+    double turned = 0;
+    run.until(4, [&] { turned += run.world.state(1).angular_velocity.y() * run.time_step; });
+    EXPECT_NEAR(turned, greatest, 1e-2);
+    const double pitch = 2 * std::atan2(run.world.state(1).orientation.y(), run.world.state(1).orientation.w());
+    EXPECT_NEAR(std::remainder(pitch - greatest, 2 * pi), 0, 1e-4);
+    EXPECT_NEAR(run.world.state(1).angular_velocity.y(), 0, 1e-5);
+    EXPECT_NEAR(run.world.state(1).position.x(), 2, 1e-6);
+  }
+  scene.bodies[0].rigid.velocity = {0, 0, -0.5};
+  Trial sinking(scene, 1e-3);
+  sinking.until(1);
+  EXPECT_NEAR(sinking.world.state(1).position.z(), 1.4, 1e-5);
+}
+
+/// A free box and a fixed post that a joint may hold to each other, over a tank's floor.
+Case beside_post() {
+  Case scene = dry_case({4, 4, 4}, 0.25);
+  scene.bodies = {free_box("bob", {2.4, 2, 1.5}, {0.3, 0.3, 0.3}), free_box("post", {2, 2, 1}, {0.6, 0.6, 2.0})};
+  scene.bodies[1].motion = Motion::fixed;
+  scene.bodies[1].rigid.density.reset();
+  return scene;
+}
+
+TEST(Joints, ToAFixedBodySparesThatBodyAlone) {
+  Case scene = beside_post();  // 0.05 m inside of the post
+  scene.joints = {joint_of(JointType::slider, {2.4, 2, 1.5}, Vector3d::UnitZ())};
+  scene.joints[0].parent = "post";
+  Trial run(scene, 5e-4);
+  run.until(0.2);
+  EXPECT_NEAR(run.world.joint_state(0).position, -0.5 * gravity * 0.04, 1e-3) << "the post has held what slides along it";
+  run.until(1.5);
+  EXPECT_NEAR(run.world.state(1).position.z(), 0.15, 0.02 * 0.25) << "the floor has not held it";
+  EXPECT_NEAR(run.world.state(1).position.x(), 2.4, 1e-4);
+}
+
+TEST(Joints, ToAFixedBodyHangsAPendulum) {
+  Case scene = beside_post();
+  scene.bodies[0] = free_box("bob", {2, 2, 2.6}, {0.1, 0.2, 1.0});  // over the post, on which it could not stand
+  scene.joints = {joint_of(JointType::hinge, {2, 2, 3.1})};
+  scene.joints[0].parent = "post";
+  scene.bodies[0].rigid.angular_velocity = {0, 0.05, 0};
+  scene.bodies[0].rigid.velocity = {-0.025, 0, 0};
+  Trial run(scene, 2e-4);
+  const MassProperties body = run.world.properties(1);
+  const double period = 2 * pi * std::sqrt((body.inertia(1, 1) / body.mass + 0.25) / (gravity * 0.5));
+  Crossings crossings;
+  run.until(5 * period, [&] { crossings.see(run.time, run.world.joint_state(0).position); });
+  ASSERT_GE(crossings.times.size(), 4u);
+  EXPECT_NEAR(crossings.period(), period, 1e-4 * period);
+}
+
+TEST(Joints, ToTheTankLeavesTheFixedBodiesInTheWay) {
+  Case scene = dry_case({4, 4, 4}, 0.25);
+  scene.gravity = {gravity, 0, 0};
+  scene.bodies = {free_box("bob", {2, 2, 0.5}, {0.1, 1.0, 1.0}), free_box("post", {2.6, 2, 0.15}, {0.2, 0.4, 0.3})};
+  scene.bodies[1].motion = Motion::fixed;
+  scene.bodies[1].rigid.density.reset();
+  scene.joints = {joint_of(JointType::hinge, {2, 2, 0})};
+  scene.joints[0].parent = "tank";
+  Trial run(scene, 5e-4);
+  run.until(2);
+  // Half of its thickness before the post's edge, which is 0.5 m from the hinge and 0.3 m above it.
+  EXPECT_NEAR(run.world.joint_state(0).position, std::atan2(0.5, 0.3) - std::asin(0.05 / std::hypot(0.5, 0.3)), 1e-2);
+}
+
+TEST(Joints, ThatHoldNothingTogetherLeaveContacts) {
+  for (const JointType type : {JointType::spring, JointType::six_dof}) {
+    Case scene = dry_case({4, 4, 4}, 0.25);
+    scene.gravity = Vector3d::Zero();
+    scene.bodies = {free_box("bob", {1.5, 2, 2}, {0.4, 0.4, 0.4}), free_box("other", {2.5, 2, 2}, {0.4, 0.4, 0.4})};
+    scene.bodies[0].rigid.velocity = {1, 0, 0};
+    scene.joints = {joint_of(type, {1.5, 2, 2})};
+    scene.joints[0].parent = "other";
+    if (type == JointType::spring) {
+      scene.joints[0].parent_point = Vector3d(2.5, 2, 2);
+      scene.joints[0].stiffness = 100;
+      scene.joints[0].damping = 100;
+      scene.joints[0].length = 0.1;
+    } else {
+      scene.joints[0].six_limits[1] = scene.joints[0].six_limits[2] = {{0, 0}};
+    }
+    Trial run(scene, 1e-3);
+    double nearest = 1;
+    run.until(3, [&] { nearest = std::min(nearest, run.world.state(2).position.x() - run.world.state(1).position.x()); });
+    EXPECT_NEAR(nearest, 0.4, 0.02 * 0.25) << static_cast<int>(type);
+  }
+}
+
 TEST(Joints, SaysWhatDoesNotFit) {
   Case scene = hanging({2, 2, 2}, {0.2, 0.3, 0.4});
   scene.bodies.push_back(free_box("post", {1, 1, 1}, {0.2, 0.2, 0.2}));

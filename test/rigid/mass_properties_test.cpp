@@ -245,6 +245,9 @@ TEST_F(MassPropertiesOfABox, RefusesAMassThatIsNotOne) {
   EXPECT_EQ(refusal(), "body 'hull': the mass is 0; it must be greater than 0");
   rigid.mass = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal().find("must be greater than 0"), std::string::npos);
+  rigid.density = rigid.mass;
+  rigid.mass = {};
+  EXPECT_EQ(refusal(), "body 'hull': the density is nan; it must be greater than 0");
 }
 
 TEST_F(MassPropertiesOfABox, RefusesAnInertiaThatNoBodyHas) {
@@ -262,6 +265,20 @@ TEST_F(MassPropertiesOfABox, RefusesAnInertiaThatNoBodyHas) {
   refused({1, 0, 1, 0, 0, 0}, "the inertia's yy is 0; it must be greater than 0", 2);
   rigid.inertia = {0.0833, 0.0833, 0.1667, 0, 0, 0};  // a thin plate's, rounded upwards
   EXPECT_EQ(found().inertia(2, 2), 0.1667);
+}
+
+TEST(MassProperties, OfAnOpenTankThatIsNotFreeAreWhatIsGiven) {
+  const TriangleMesh open = box_mesh({{0, -0.5, 0}, {2, 0.5, 1}}, true, "tank");
+  for (const int dimensions : {2, 3}) {
+    RigidCase rigid;
+    rigid.mass = 10;
+    EXPECT_EQ(mass_properties(rigid, open, dimensions, "tank", false).mass, 10.0);
+    EXPECT_EQ(mass_properties(rigid, open, dimensions, "tank", false).inertia.norm(), 0.0);
+    rigid.inertia = {1, 2, 2, 0, 0, 0};
+    EXPECT_EQ(mass_properties(rigid, open, dimensions, "tank", false).inertia(1, 1), 2.0);
+    rigid.mass = -1;
+    EXPECT_ERROR(mass_properties(rigid, open, dimensions, "tank", false), "must be greater than 0");
+  }
 }
 
 TEST(MassProperties, OfASurfaceThatEnclosesNothingMustAllBeGiven) {

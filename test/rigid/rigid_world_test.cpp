@@ -177,6 +177,70 @@ TEST(RigidWorld, AMooringSwingsAtItsFrequencyAndFollowsTheTank) {
   EXPECT_NEAR(carried.world.state(1).position.z(), 2.5, 1e-3) << "the anchor has not moved with the tank";
 }
 
+TEST(RigidWorld, ASlackMooringPullsAndNeverPushes) {
+  Case scene = weightless();
+  MooringCase line;
+  line.anchor = {2, 2, 0};
+  line.attachment = {2, 2, 1.5};
+  line.stiffness = 1200;
+  line.damping = 50;
+  line.length = 1.7;
+  scene.bodies[0].rigid.moorings = {line};
+  scene.bodies[0].rigid.velocity = {0, 0, -0.5};
+  Trial run(scene, 1e-3);
+  run.until(1);  // it hangs loose all that way down to 1 m
+  EXPECT_EQ(run.world.state(1).velocity.z(), -0.5);
+  scene.bodies[0].rigid.velocity.z() = 0.5;
+  Trial taut(scene, 1e-3);
+  double highest = 0, slowest = 1;
+  taut.until(2, [&] {
+    highest = std::max(highest, taut.world.state(1).position.z());
+    slowest = std::min(slowest, taut.world.state(1).velocity.z());
+  });
+  const double mass = taut.world.properties(1).mass;
+  EXPECT_GT(highest, 2.2 + 0.02);
+  EXPECT_LT(highest, 2.2 + 0.5 * std::sqrt(mass / 1200)) << "the damper takes some";
+  EXPECT_LT(taut.world.state(1).velocity.z(), -0.3) << "it has not been drawn back";
+  EXPECT_GE(slowest, -0.5) << "it comes back faster than it went";
+  const double loose = taut.world.state(1).velocity.z();
+  taut.until(3);
+  EXPECT_EQ(taut.world.state(1).velocity.z(), loose);
+}
+
+TEST(RigidWorld, AMooringPullsAFreeTankAsHardAsTheBody) {
+  Case scene = weightless();
+  scene.tank.motion = Motion::free;
+  scene.tank.rigid.mass = 300;
+  scene.tank.rigid.centre_of_mass = Vector3d(2, 2, 1.5);
+  scene.tank.rigid.inertia = {700, 800, 900, 0, 0, 0};
+  MooringCase line;
+  line.anchor = {0.5, 2, 0};
+  line.attachment = {2, 2, 1.5};
+  line.stiffness = 2000;
+  line.damping = 30;
+  line.length = 1;
+  scene.bodies[0].rigid.moorings = {line};
+  scene.bodies[0].rigid.collision = CollisionShape::none;
+  scene.bodies[0].rigid.velocity = {0.1, 0.2, 0.3};
+  Trial run(scene, 2e-4);
+  const double mass = run.world.properties(1).mass;
+  const auto momentum = [&] { return Vector3d(mass * run.world.state(1).velocity + 300 * run.world.state(0).velocity); };
+  const auto spin = [&] {
+    Vector3d sum = Vector3d::Zero();
+    for (const std::size_t o : {0, 1}) {
+      const RigidState state = run.world.state(o);
+      sum += run.world.properties(o).mass * state.position.cross(state.velocity) + inertia_now(run.world, o) * state.angular_velocity;
+    }
+    return sum;
+  };
+  const Vector3d before = momentum(), spin_before = spin();
+  double pulled = 0;
+  run.until(1, [&] { pulled = std::max(pulled, 300 * run.world.state(0).velocity.norm()); });
+  EXPECT_GT(pulled, 50) << "the line has hardly pulled";
+  EXPECT_LT((momentum() - before).norm(), 1e-9);
+  EXPECT_LT((spin() - spin_before).norm(), 1e-9);
+}
+
 TEST(RigidWorld, StiffMooringsAreStableAtAnyStep) {
   Case scene = weightless();
   MooringCase line;
@@ -209,6 +273,33 @@ TEST(RigidWorld, StatesHalfwayLeaveTheWorldAlone) {
                 .norm(),
             1e-14);
   EXPECT_NEAR(middle[0].position.x(), 0.1 * std::sin(2 * pi * 0.04), 1e-14);
+}
+
+// Without a limit a command changes the velocity within one step, and the fluid feels that as an acceleration over the whole of it.
+TEST(RigidWorld, HalfwayThroughAJumpOfACommandTheAccelerationIsThatOfTheWholeStep) {
+  for (const bool tank : {false, true}) {
+    Case scene = weightless();
+    scene.bodies.push_back(free_box("post", {3, 1, 1}, {0.2, 0.2, 0.2}));
+    scene.bodies[1].motion = Motion::fixed;
+    scene.bodies[1].rigid.density.reset();
+    RigidCase& driven = tank ? scene.tank.rigid : scene.bodies[0].rigid;
+    (tank ? scene.tank.motion : scene.bodies[0].motion) = Motion::commanded;
+    driven.density.reset();
+    driven.command.greatest_acceleration.reset();
+    driven.command.greatest_angular_acceleration = 1000;
+    Trial run(scene, 1e-3);
+    const std::size_t owner = tank ? 0 : 1;
+    run.world.command(owner, 0, {0.3, 0, 0.1}, {0, 0.2, 0});
+    const RigidState middle = run.world.at_middle(0, 1e-3)[owner], post = run.world.at_middle(0, 1e-3)[2];
+    run.steps(1);
+    const RigidState end = run.world.state(owner);
+    EXPECT_LT((middle.acceleration - end.velocity / 1e-3).norm(), 1e-9);
+    EXPECT_LT((middle.angular_acceleration - end.angular_velocity / 1e-3).norm(), 1e-9);
+    const Vector3d arm = post.position - middle.position;
+    const Vector3d riding =
+        middle.acceleration + middle.angular_acceleration.cross(arm) + middle.angular_velocity.cross(middle.angular_velocity.cross(arm));
+    if (tank) EXPECT_LT((post.acceleration - riding).norm(), 1e-9) << "what is fixed to the tank feels another acceleration";
+  }
 }
 
 TEST(RigidWorld, SeenFromARollingTankVelocitiesAreThePlacesDerivatives) {

@@ -30,10 +30,10 @@ struct MassProperties {
 
 /// The inertia, where none is given, is that of uniform density about the centre of volume, and counts about the centre of mass even where
 /// that is given elsewhere: ballast that moves the centre changes the inertia in a way that nobody knows but the user. The products of a
-/// given inertia are the matrix's elements: xy = −∫ x y dm, as in URDF. A body that is not free needs no mass: it then has mass and inertia
-/// 0 and the centre of volume (the middle of its bounding box if it encloses none).
+/// given inertia are the matrix's elements: xy = −∫ x y dm, as in URDF. A body that is not free needs no mass: without one it has mass and
+/// inertia 0, and in any case a centre, that of volume (the middle of its bounding box if it encloses none) unless it is given.
 /// `what` opens the messages ("body 'hull'"). Throws Error where mass and density are both or, of a free body, neither given or not greater
-/// than 0; where mass, centre or inertia are to be found from a mesh that is not closed or encloses next to nothing; and where the inertia
+/// than 0; where a free body's are to be found from a mesh that is not closed or encloses next to nothing; and where the inertia
 /// is not positive definite or breaks the triangle inequality of its principal moments (each at most the sum of the other two).
 MassProperties mass_properties(const RigidCase& rigid, const TriangleMesh& mesh, int dimensions, const std::string& what, bool free = true);
 

@@ -36,13 +36,16 @@ struct JointState {
 /// contacts are found anew in every step, and solved without a warm start, so that a restored run goes on bit for bit. A fixed body is part
 /// of the tank: it moves with it, and where the tank is free the fluid's load on it acts on the tank; its mass is not added. Prescribed and
 /// commanded motions are in the world, whatever the tank does. Moorings of the tank itself hang on the world. In contacts, free bodies are
-/// convex parts. The tank, and other bodies whose shape is `automatic`, are their own facets, hollows and all, from the fluid's side: a
-/// body that has gone over the rim passes through the tank's walls from outside, and nothing stops it at the ends of a periodic tank.
-/// Bodies joined, and bodies joined to the tank, pass through each other. Bodies that are not free do not feel contacts.
+/// convex parts. The tank, and bodies that are not free, are their own facets where their shape is `automatic`, hollows and all, from the
+/// fluid's side, and convex parts else. A body that has gone over the rim passes through the tank's walls from outside, and nothing stops
+/// it at the ends of a periodic tank. Two bodies, or a body and the tank, that a joint holds together pass through each other; a spring
+/// does not hold, nor does a joint of six degrees of freedom that leaves one of x, y and z free. Bodies that are not free do not feel
+/// contacts.
 class RigidWorld {
  public:
   /// Makes nothing of Bullet's where no body is free. Throws Error for mass properties that cannot be, prescribed motions that cannot be
-  /// read, joints and moorings that do not fit. Says once, through the log, where a collision shape is an approximation and by how much.
+  /// read, joints and moorings that do not fit, and free bodies that start wholly outside of the tank. Says once, through the log, where a
+  /// collision shape is an approximation and by how much, how deep bodies overlap at the start, and which of them have no floor under them.
   RigidWorld(const Case& settled_case, const Layout& layout, const ResourceResolver& resolve = {});
   ~RigidWorld();
 
@@ -56,7 +59,8 @@ class RigidWorld {
   /// The same relative to the tank, in the tank's axes: as the fluid, which is solved there, sees it.
   RigidState state_in_tank(std::size_t owner) const;
 
-  /// States after half of the step from `time`, with the present velocities; leaves the world as it is.
+  /// States after half of the step from `time`, with the present velocities; leaves the world as it is. Accelerations of commanded owners
+  /// are the change of velocity over the whole step.
   std::vector<RigidState> at_middle(double time, double time_step) const;
   /// One step; `fluid`: one load an owner, in the world's axes; those of bodies that are not free are not used.
   /// Throws Error, naming body and time, for a load that is not finite.
