@@ -46,7 +46,9 @@ PoseSample pose_sample(double time, const std::vector<double>& values, std::size
 
 }  // namespace
 
-Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world) : world_(world) {
+Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world,
+                   std::function<std::vector<WallWrench>(Solver&)> wrenches)
+    : world_(world), gravity_(scene.gravity), wrenches_(std::move(wrenches)) {
   add_pressures(scene, solver);
   add_levels(scene, layout, solver);
   add_wrenches(scene);
@@ -55,14 +57,22 @@ Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver
 }
 
 void Recorder::add_pressures(const Case& scene, const Solver& solver) {
-  std::vector<Vector3d> points;
-  for (const PressureProbeCase& probe : scene.instruments.pressure_probes) points.push_back(probe.position);
-  probes_ = solver.make_points(points);
-  const bool any = !points.empty();
+  bool any_rides = false;
+  for (const PressureProbeCase& probe : scene.instruments.pressure_probes) {
+    probe_places_.push_back(probe.position);
+    std::size_t owner = 0;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      if (scene.bodies[b].name == probe.body && world_.moves(1 + b)) owner = 1 + b;
+    probe_owners_.push_back(owner);
+    any_rides = any_rides || owner != 0;
+  }
+  probes_ = solver.make_points(probe_places_);
+  const bool any = !probe_places_.empty();
   instruments_.push_back({SampleClock(scene.instruments.rate),
-                          [this, any](Solver& fluid) {
+                          [this, any, any_rides](Solver& fluid) {
                             Values pressures;
                             if (!any) return pressures;
+                            if (any_rides) probes_ = fluid.make_points(places_of_probes());
                             for (const PointValue& value : fluid.evaluate(*probes_)) pressures.push_back(value.pressure);
                             return pressures;
                           },
@@ -73,8 +83,15 @@ void Recorder::add_pressures(const Case& scene, const Solver& solver) {
                           false});
 }
 
+std::vector<Vector3d> Recorder::places_of_probes() const {
+  std::vector<Vector3d> places = probe_places_;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (probe_owners_[k] != 0) places[k] = world_.state_in_tank(probe_owners_[k]).moved(places[k], world_.reference(probe_owners_[k]));
+  return places;
+}
+
 void Recorder::add_levels(const Case& scene, const Layout& layout, const Solver& solver) {
-  gauges_ = std::make_shared<WaveGauges>(scene, layout, solver);
+  gauges_ = std::make_shared<WaveGauges>(scene, layout, solver, world_);
   instruments_.push_back({SampleClock(scene.instruments.gauge_rate.value_or(scene.instruments.rate)),
                           [this](Solver& fluid) { return gauges_->read(fluid); },
                           [this](double time, const Values& values) {
@@ -88,7 +105,7 @@ void Recorder::add_wrenches(const Case& scene) {
   instruments_.push_back({SampleClock(scene.instruments.wrench_rate.value_or(scene.instruments.rate)),
                           [this](Solver& fluid) {
                             Values values;
-                            const std::vector<WallWrench> wrenches = fluid.wrenches();
+                            const std::vector<WallWrench> wrenches = wrenches_(fluid);
                             for (std::size_t o = 0; o < wrenches.size(); ++o) {
                               const Quaterniond back =
                                   o == 0 || !world_.moves(o) ? Quaterniond::Identity() : world_.state_in_tank(o).orientation.conjugate();
@@ -114,10 +131,21 @@ void Recorder::add_wrenches(const Case& scene) {
                           false});
 }
 
+EnergySample Recorder::energies(Solver& fluid, double time) const {
+  const FluidEnergies found = fluid.energies();
+  double potential = found.potential;
+  if (world_.moves(0)) {
+    const RigidState tank = world_.state(0);
+    const Vector3d centre = tank.moved(found.mass_centre, world_.reference(0));
+    potential -= found.mass * gravity_.dot(centre - found.mass_centre);
+  }
+  return {time, found.kinetic, potential, found.compression, found.mass};
+}
+
 void Recorder::add_energies(const Case& scene) {
   instruments_.push_back({SampleClock(scene.instruments.energy_rate.value_or(scene.instruments.rate)),
-                          [](Solver& fluid) {
-                            const FluidEnergies energies = fluid.energies();
+                          [this](Solver& fluid) {
+                            const EnergySample energies = this->energies(fluid, 0);
                             return Values{energies.kinetic, energies.potential, energies.compression, energies.mass};
                           },
                           [this](double time, const Values& values) {

@@ -47,43 +47,60 @@ double floor_height(const Layout& layout, double x, double y) {
   return best < 2.0 * layout.spacing ? exact : floor;
 }
 
-bool inside_body(const Case& scene, const Layout& layout, const Vector3d& point) {
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (const Box* box = std::get_if<Box>(&scene.bodies[b].shape)) {
-      const bool across = scene.dimensions == 2 || (point.y() > box->min.y() && point.y() < box->max.y());
-      if (across && point.x() > box->min.x() && point.x() < box->max.x() && point.z() > box->min.z() && point.z() < box->max.z())
-        return true;
-    } else if (inside(layout.meshes[1 + b], point)) {
-      return true;
-    }
-  }
-  return false;
+bool within(const Box& box, const Vector3d& point) {
+  return (point.array() > box.min.array()).all() && (point.array() < box.max.array()).all();
 }
 
 }  // namespace
 
-WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& solver) : interval_(0.25 * layout.spacing) {
-  std::vector<Vector3d> points;
+WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world)
+    : world_(world), interval_(0.25 * layout.spacing) {
+  std::vector<Solid> fixed;
+  for (std::size_t b = 0; b < scene.bodies.size() && !scene.instruments.wave_gauges.empty(); ++b) {
+    const Box* box = std::get_if<Box>(&scene.bodies[b].shape);
+    Solid solid{1 + b, layout.meshes[1 + b], box != nullptr, box != nullptr ? *box : layout.meshes[1 + b].bounding_box()};
+    if (scene.dimensions == 2) {
+      solid.box.min.y() = -std::numeric_limits<double>::infinity();
+      solid.box.max.y() = std::numeric_limits<double>::infinity();
+    }
+    (world.moves(solid.owner) ? moving_ : fixed).push_back(std::move(solid));
+  }
   for (const WaveGaugeCase& gauge : scene.instruments.wave_gauges) {
     Line line;
-    line.begin = points.size();
+    line.begin = places_.size();
     const double y = scene.dimensions == 2 ? 0.0 : gauge.position.y();
     line.floor = floor_height(layout, gauge.position.x(), y);
     const int count = static_cast<int>(std::floor((layout.domain.max.z() - line.floor) / interval_)) + 1;
     for (int k = 0; k < count; ++k) {
-      points.emplace_back(gauge.position.x(), y, line.floor + k * interval_);
-      open_.push_back(!inside_body(scene, layout, points.back()));
+      places_.emplace_back(gauge.position.x(), y, line.floor + k * interval_);
+      open_.push_back(std::none_of(fixed.begin(), fixed.end(), [&](const Solid& solid) { return contains(solid, places_.back()); }));
     }
-    line.end = points.size();
+    line.end = places_.size();
     lines_.push_back(line);
   }
-  points_ = solver.make_points(points);
+  points_ = solver.make_points(places_);
+}
+
+bool WaveGauges::contains(const Solid& solid, const Vector3d& point) const {
+  return within(solid.box, point) && (solid.is_box || inside(solid.mesh, point));
+}
+
+std::vector<char> WaveGauges::open_now() const {
+  std::vector<char> open = open_;
+  for (const Solid& solid : moving_) {
+    const RigidState state = world_.state_in_tank(solid.owner);
+    const Quaterniond back = state.orientation.conjugate();
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      if (open[k] && contains(solid, back * (places_[k] - state.position) + world_.reference(solid.owner))) open[k] = 0;
+  }
+  return open;
 }
 
 std::vector<double> WaveGauges::read(Solver& solver) const {
   std::vector<double> levels;
   if (lines_.empty()) return levels;
   const std::vector<PointValue> values = solver.evaluate(*points_);
+  const std::vector<char> open = open_now();
   // how much of the kernel the fluid fills, the walls' share apart: 1 in the fluid, 1/2 on its surface, 0 in the air
   const auto filling = [&](std::size_t k) {
     if (values[k].shepard < 0.1) return 0.0;
@@ -93,8 +110,8 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
     double column = 0, above = 0, water_above = 0;
     for (std::size_t k = line.end; k-- > line.begin;) {
       // a body counts as water where water stands on it
-      if (open_[k]) water_above = filling(k);
-      const double here = open_[k] ? water_above : water_above > 0.5 ? 1.0 : 0.0;
+      if (open[k]) water_above = filling(k);
+      const double here = open[k] ? water_above : water_above > 0.5 ? 1.0 : 0.0;
       if (k + 1 < line.end) column += 0.5 * interval_ * (here + above);
       above = here;
     }

@@ -22,12 +22,12 @@ CloudPublisher::~CloudPublisher() {
   thread_.join();
 }
 
-void CloudPublisher::offer(const Simulation& simulation) {
+bool CloudPublisher::offer(const Simulation& simulation) {
   const auto now = std::chrono::steady_clock::now();
-  if (now < due_) return;
+  if (now < due_) return false;
   const bool wants_all = all_.getNumSubscribers() > 0;
   const bool wants_surface = surface_.getNumSubscribers() > 0;
-  if (!wants_all && !wants_surface) return;
+  if (!wants_all && !wants_surface) return false;
   due_ = now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(1.0 / publishing_.cloud_rate));
   Clouds clouds;
   if (wants_all) clouds.all = simulation.particles();
@@ -37,6 +37,7 @@ void CloudPublisher::offer(const Simulation& simulation) {
     latest_ = std::move(clouds);
   }
   wake_.notify_one();
+  return true;
 }
 
 void CloudPublisher::run() {

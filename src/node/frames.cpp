@@ -17,6 +17,12 @@ std::vector<BodyFrame> body_frames(const Case& checked, const std::vector<Vector
   return frames;
 }
 
+std::size_t owner_of(const Case& checked, const PressureProbeCase& probe) {
+  for (std::size_t i = 0; i < checked.bodies.size(); ++i)
+    if (checked.bodies[i].name == probe.body) return 1 + i;
+  return 0;
+}
+
 std::vector<Vector3d> reference_points(const RigidWorld& bodies) {
   std::vector<Vector3d> references;
   for (std::size_t owner = 0; owner < bodies.count(); ++owner) references.push_back(bodies.reference(owner));

@@ -140,10 +140,12 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   int id = 0;
   for (const PressureProbeCase& probe : checked.instruments.pressure_probes) {
     Marker sphere = marker(checked, "probes", id, Marker::SPHERE, colour(0.9F, 0.1F, 0.1F, 1.0F));
+    const BodyFrame& frame = frames[owner_of(checked, probe)];
     sphere.pose.position = point_message(probe.position);
     sphere.scale.x = sphere.scale.y = sphere.scale.z = 0.006 * size;
-    drawing.markers.push_back(sphere);
-    drawing.markers.push_back(label(checked, "probe names", id, probe.name, probe.position + Vector3d(0, 0, text_height), text_height));
+    drawing.markers.push_back(moving_with(frame, sphere));
+    drawing.markers.push_back(
+        moving_with(frame, label(checked, "probe names", id, probe.name, probe.position + Vector3d(0, 0, text_height), text_height)));
     ++id;
   }
   id = 0;

@@ -88,8 +88,10 @@ geometry_msgs::WrenchStamped SampleMessages::wrench(std::size_t index, Part part
 std::vector<geometry_msgs::TransformStamped> static_transforms(const Case& checked, const std::vector<BodyFrame>& frames) {
   const PublishingCase& publishing = checked.publishing;
   std::vector<geometry_msgs::TransformStamped> transforms;
-  for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
-    transforms.push_back(translation(publishing.world_frame, probe_frame(publishing, probe.name), probe.position));
+  for (const PressureProbeCase& probe : checked.instruments.pressure_probes) {
+    const BodyFrame& frame = frames[owner_of(checked, probe)];
+    transforms.push_back(translation(frame.name, probe_frame(publishing, probe.name), probe.position - frame.origin));
+  }
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (!frames[i].moves) transforms.push_back(translation(frames[i].parent, frames[i].name, frames[i].origin));
   return transforms;

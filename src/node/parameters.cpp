@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <regex>
+#include <vector>
 
 #include "wavetank/common/error.h"
 #include "wavetank/node/resources.h"
@@ -80,6 +82,16 @@ std::optional<XmlRpcValue> take(XmlRpcValue& parameters, const std::string& key)
   return taken;
 }
 
+/// The same of what lies deeper, at a path of keys; groups that are left empty go too.
+void take_path(XmlRpcValue& group, const std::string& path) {
+  const std::size_t slash = path.find('/');
+  const std::string key = path.substr(0, slash);
+  std::optional<XmlRpcValue> taken = take(group, key);
+  if (slash == std::string::npos || !taken) return;
+  if (taken->getType() == XmlRpcValue::TypeStruct) take_path(*taken, path.substr(slash + 1));
+  if (taken->getType() != XmlRpcValue::TypeStruct || taken->size() > 0) group[key] = *taken;
+}
+
 class ParameterReader {
  public:
   ParameterReader(XmlRpcValue& parameters, std::string source) : parameters_(parameters), source_(std::move(source)) {}
@@ -124,8 +136,21 @@ void flatten(XmlRpcValue& group, const std::string& path, std::vector<Override>&
     if (value.getType() == XmlRpcValue::TypeStruct)
       flatten(value, key, overrides);
     else
-      overrides.push_back({key, yaml_of(value)});
+      overrides.push_back({key, yaml_of(value), "parameter ~"});
   }
+}
+
+/// Takes out what the parameters hold for the case's robots, which robots of its file or of the parameters themselves name.
+void take_robot_descriptions(XmlRpcValue& parameters, const std::string& source, const std::string& case_file) {
+  std::vector<std::string> names;
+  if (!case_file.empty()) names = robot_parameters_of_file(case_file);
+  if (parameters.hasMember("robots")) {
+    XmlRpcValue robots;
+    robots["robots"] = parameters["robots"];
+    for (const std::string& name : robot_parameters_of_text(yaml_of(robots), source)) names.push_back(name);
+  }
+  const std::string own = source + "/";
+  for (const std::string& name : names) take_path(parameters, name.compare(0, own.size(), own) == 0 ? name.substr(own.size()) : name);
 }
 
 /// What a case of the node can name: packages, and text parameters of the node's namespace or one above it.
@@ -170,6 +195,7 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   take(parameters, "diagnostic_period");  // diagnostic_updater's own
   take(parameters, clock_reached);        // the node's own note
 
+  take_robot_descriptions(parameters, source, setup.parameters.case_file);
   const Surroundings surroundings = surroundings_of(private_handle);
   if (!setup.parameters.case_file.empty()) {
     std::vector<Override> overrides;

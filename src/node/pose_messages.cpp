@@ -5,13 +5,30 @@
 
 namespace wavetank {
 
+bool has_position(const JointCase& joint) {
+  return joint.type == JointType::hinge || joint.type == JointType::slider || joint.type == JointType::spring;
+}
+
+PoseSample present_poses(const RigidWorld& bodies, double time) {
+  PoseSample sample;
+  sample.time = time;
+  sample.states.push_back(bodies.state(0));
+  for (std::size_t owner = 1; owner < bodies.count(); ++owner) sample.states.push_back(bodies.state_in_tank(owner));
+  for (std::size_t joint = 0; joint < bodies.joint_count(); ++joint) sample.joints.push_back(bodies.joint_state(joint));
+  return sample;
+}
+
 PoseMessages::PoseMessages(const Case& checked, std::vector<BodyFrame> frames) : frames_(std::move(frames)) {
   for (std::size_t owner = 0; owner < frames_.size(); ++owner) {
     if (!frames_[owner].moves) continue;
     moving_.push_back(owner);
     topics_.push_back(odometry_topic(owner == 0 ? tank_name : checked.bodies[owner - 1].name));
   }
-  for (const JointCase& joint : checked.joints) joints_.push_back(joint.name);
+  for (std::size_t joint = 0; joint < checked.joints.size(); ++joint) {
+    if (!has_position(checked.joints[joint])) continue;
+    joints_.push_back(joint);
+    joint_names_.push_back(checked.joints[joint].name);
+  }
 }
 
 geometry_msgs::Pose PoseMessages::pose(std::size_t owner, const PoseSample& sample) const {
@@ -58,11 +75,12 @@ tf2_msgs::TFMessage PoseMessages::transforms(const PoseSample& sample, const Sta
 sensor_msgs::JointState PoseMessages::joint_states(const PoseSample& sample, const StampClock& clock) const {
   sensor_msgs::JointState message;
   message.header.stamp = clock.at(sample.time);
-  message.name = joints_;
-  for (const JointState& joint : sample.joints) {
-    message.position.push_back(joint.position);
-    message.velocity.push_back(joint.velocity);
-    message.effort.push_back(joint.effort);
+  message.name = joint_names_;
+  for (const std::size_t joint : joints_) {
+    const JointState& state = sample.joints[joint];
+    message.position.push_back(state.position);
+    message.velocity.push_back(state.velocity);
+    message.effort.push_back(state.effort);
   }
   return message;
 }

@@ -76,6 +76,7 @@ void SolverLoop::start() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     status_.start_progress = 1.0;
+    status_.has_started = true;
     status_.solver = simulation_->state();
     status_.energies = simulation_->energies();
     status_.device = simulation_->device_description();
@@ -155,8 +156,7 @@ bool SolverLoop::wait_for_pace() {
 
 void SolverLoop::fail(const std::string& why) {
   std::string failure = why;
-  const bool has_snapshot = simulation_ && !settings_.failure_snapshot.empty();
-  if (has_snapshot) {
+  if (status().has_started && !settings_.failure_snapshot.empty()) {
     try {
       simulation_->save(settings_.failure_snapshot);
       failure += "; its state is in '" + settings_.failure_snapshot + "'";

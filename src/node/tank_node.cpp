@@ -20,6 +20,9 @@ constexpr double bag_status_period = 0.01;      ///< s of simulated time
 constexpr auto clock_period = std::chrono::milliseconds(10);
 constexpr auto recorder_pause = std::chrono::milliseconds(500);  ///< between a recorder's first and last subscription
 
+constexpr int exit_refused = 2;  // as wavetank_run for a case that cannot be laid out
+constexpr int exit_failed = 3;
+
 std::string time_text(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4fs", seconds);
@@ -65,7 +68,8 @@ TankNode::~TankNode() {
 int TankNode::finish() {
   timer_.stop();
   loop_->stop();
-  if (loop_->status().phase == LoopPhase::failed) return 3;
+  const LoopStatus status = loop_->status();
+  if (status.phase == LoopPhase::failed) return status.has_started ? exit_failed : exit_refused;
   if (case_.publishing.publish_clock) private_.deleteParam(clock_reached);
   return 0;
 }
@@ -87,7 +91,8 @@ void TankNode::advertise_topics() {
     if (body.motion != Motion::fixed) moving.push_back(body.name);
   for (const std::string& body : moving) advertise(odometry_topic(body), nav_msgs::Odometry());
   if (!moving.empty()) moving_transforms_ = std::make_unique<TransformPublisher>(handle_);
-  if (!case_.joints.empty()) advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
+  if (std::any_of(case_.joints.begin(), case_.joints.end(), has_position))
+    advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
   markers_ = private_.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
   case_publisher_ = private_.advertise<std_msgs::String>("case", 1, true);
   status_ = private_.advertise<SolverStatus>("status", 10);
@@ -157,9 +162,19 @@ void TankNode::started(const Simulation& simulation) {
     message.transforms = transforms;
     bag_->write_latched("/tf_static", clock_.at(time), message);
   }
+  if (!setup_.parameters.restore.empty()) publish_present_poses(simulation);
   log(LogLevel::info, simulation.summary());
   subscribers_due_ =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(setup_.parameters.wait_for_subscribers));
+}
+
+/// A restored simulation has no sample of poses before it goes on, which it may not do for long: paused, or at its end.
+void TankNode::publish_present_poses(const Simulation& simulation) {
+  const double time = simulation.state().time;
+  publish_clock(time);
+  Samples samples;
+  samples.poses.push_back(present_poses(simulation.bodies(), time));
+  publish_samples(samples);
 }
 
 void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
@@ -167,8 +182,7 @@ void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   // Before the samples, so that nobody gets one from the future.
   const bool has_samples = !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty();
   if (has_samples || Clock::now() >= clock_due_) publish_clock(time);
-  messages_->emit(samples, clock_,
-                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { publish_sample(topic, stamp, message); });
+  publish_samples(samples);
   if (!bag_) return;
   for (const EnergySample& energies : samples.energies) {
     if (energies.time < next_bag_status_ - 1e-9) continue;
@@ -183,6 +197,11 @@ void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
     bag_->write("status", clock_.at(energies.time), make_status(status));
   }
   if (setup_.parameters.bag_clouds) write_cloud(simulation, time);
+}
+
+void TankNode::publish_samples(const Samples& samples) {
+  messages_->emit(samples, clock_,
+                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { publish_sample(topic, stamp, message); });
 }
 
 void TankNode::send(const std::string&, const tf2_msgs::TFMessage& message) { moving_transforms_->publish(message); }
@@ -207,8 +226,12 @@ void TankNode::write_cloud(const Simulation& simulation, double time) {
 }
 
 void TankNode::idle(const Simulation& simulation) {
-  if (Clock::now() >= clock_due_) publish_clock(simulation.state().time);
-  clouds_->offer(simulation);
+  const double time = simulation.state().time;
+  if (Clock::now() >= clock_due_) publish_clock(time);
+  const bool took_cloud = clouds_->offer(simulation);
+  // A cloud is of any time, samples of poses are not; where the simulation stands, the cloud's would be too late to be placed in the world.
+  if (took_cloud && case_.tank.motion != Motion::fixed)
+    moving_transforms_->publish_between_samples(messages_->poses().transforms(present_poses(simulation.bodies(), time), clock_));
 }
 
 void TankNode::publish_clock(double time) {

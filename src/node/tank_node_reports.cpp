@@ -103,7 +103,8 @@ void TankNode::decide_about_exit(const LoopStatus& status) {
   const bool has_failed = status.phase == LoopPhase::failed;
   const bool has_finished = status.phase == LoopPhase::finished && setup_.parameters.exit_at_end;
   seconds_since_end_ = has_failed || has_finished ? seconds_since_end_ + 1 : 0;
-  if (seconds_since_end_ > (has_failed ? seconds_of_error : seconds_of_farewell)) wants_to_exit_ = true;
+  const int seconds_to_stay = has_finished ? seconds_of_farewell : status.has_started ? seconds_of_error : 0;
+  if (seconds_since_end_ > seconds_to_stay) wants_to_exit_ = true;
 }
 
 }  // namespace wavetank

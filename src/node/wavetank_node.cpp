@@ -15,7 +15,7 @@ const char* const usage =
     "wavetank_node: a numerical wave tank as a ROS node.\n"
     "Its private parameters are the keys of a case (docs/case.md), or ~case_file names the case and the others replace its keys.\n"
     "Topics, services and the node's own parameters: docs/topics.md. Without a ROS master, use wavetank_run.\n"
-    "Exit code: 0 at the end, 2 if the case cannot be read, 3 if the simulation failed.\n";
+    "Exit code: 0 at the end, 2 if the case cannot be read or laid out, 3 if the simulation failed.\n";
 
 void log_to_ros(wavetank::LogLevel level, const std::string& line) {
   switch (level) {

@@ -82,8 +82,10 @@ Section<TankCase> tank_section() {
       "splash_guard", &TankCase::splash_guard, flag(), "",
       "Keeps spray above the tank's highest point over the tank, as if its walls went on upwards; without it, a particle that flies "
       "out stops the run.");
-  section.key("periodic", &TankCase::periodic, axes(), "",
-              "Directions in which the tank repeats itself: it has no walls at these ends, and what leaves at one comes in at the other.");
+  section.key(
+      "periodic", &TankCase::periodic, axes(), "",
+      "Directions in which the tank repeats itself: it has no walls at these ends, and what leaves at one comes in at the other. For "
+      "tanks that do not turn.");
   section.key("motion", &TankCase::motion, motion_word(), "",
               "How the tank moves; the fluid is solved in its frame, and the case's coordinates are those of the start.");
   add_rigid_keys(section);
@@ -181,7 +183,9 @@ Section<NumericsCase> numerics_section() {
 Section<InstrumentsCase> instruments_section() {
   Section<PressureProbeCase> probe;
   probe.key("name", &PressureProbeCase::name, name(), "", "Part of the names of the probe's topic and frame.").required = true;
-  probe.key("position", &PressureProbeCase::position, position(), "m", "On a wall or in the fluid; in 2-D also [x, z].").required = true;
+  probe.key("position", &PressureProbeCase::position, position(), "m", "At the start, on a wall or in the fluid; in 2-D also [x, z].")
+      .required = true;
+  probe.key("body", &PressureProbeCase::body, text(), "", "The body that the probe is fixed to; empty: the tank.");
   Section<WaveGaugeCase> gauge;
   gauge.key("name", &WaveGaugeCase::name, name(), "", "The gauge's name.").required = true;
   gauge

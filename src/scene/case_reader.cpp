@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "case_keys.h"
+#include "named_files.h"
 #include "robots.h"
 #include "structure.h"
 #include "text_file.h"
@@ -19,9 +20,14 @@ Case read_settings(scene::Setting root, const std::vector<Override>& overrides, 
   scene::Context context{Case{}.dimensions};
   Case read = scene::case_section().read(root, "", context);
   read.directory = directory;
+  scene::check_files(read, root);  // before there are bodies that the case's text does not name
   scene::build_robots(read, root, surroundings);
   scene::check_case(read, root);
   return read;
+}
+
+scene::Setting parse_file(const std::string& path) {
+  return scene::parse_settings(scene::read_text_file(path, "case file", "a case is a YAML file"), path);
 }
 
 bool is_relative_path(const std::string& uri) { return uri.find("://") == std::string::npos && uri.front() != '/'; }
@@ -49,14 +55,20 @@ class AbsolutePaths {
 }  // namespace
 
 Case read_case_file(const std::string& path, const std::vector<Override>& overrides, const Surroundings& surroundings) {
-  const std::string text = scene::read_text_file(path, "case file", "a case is a YAML file");
+  scene::Setting root = parse_file(path);
   const std::string directory = std::filesystem::absolute(path).lexically_normal().parent_path().string();
-  return read_settings(scene::parse_settings(text, path), overrides, directory, surroundings);
+  return read_settings(std::move(root), overrides, directory, surroundings);
 }
 
 Case read_case_text(const std::string& yaml, const std::string& source, const std::vector<Override>& overrides,
                     const Surroundings& surroundings) {
   return read_settings(scene::parse_settings(yaml, source), overrides, "", surroundings);
+}
+
+std::vector<std::string> robot_parameters_of_file(const std::string& path) { return scene::robot_parameters(parse_file(path)); }
+
+std::vector<std::string> robot_parameters_of_text(const std::string& yaml, const std::string& source) {
+  return scene::robot_parameters(scene::parse_settings(yaml, source));
 }
 
 std::string write_case(const Case& checked) {

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <map>
 
 #include "case_keys.h"
 #include "joint_keys.h"
+#include "motion_keys.h"
+#include "motion_values.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank::scene {
@@ -37,24 +40,61 @@ void check_body_name(const std::string& name, const std::string& path, const Set
   throw Error(nearest_setting(root, path).place.describe() + ": " + path + " is world, which is reserved for the world; give another name");
 }
 
+[[noreturn]] void clash(const Setting& root, const std::string& path, const std::string& text) {
+  throw Error(nearest_setting(root, path).place.describe() + ": " + path + " is " + text);
+}
+
 void check_walls(const Case& read, const Setting& root) {
   const WallCase& walls = read.numerics.walls;
-  const auto clash = [&](const std::string& path, const std::string& text) {
-    throw Error(nearest_setting(root, path).place.describe() + ": " + path + " is " + text);
-  };
   if (walls.shepard == ShepardFactor::monolithic && walls.elements == WallElements::facet)
-    clash("numerics/walls/shepard",
+    clash(root, "numerics/walls/shepard",
           "monolithic, a midpoint rule, which facets of any size do not have; choose geometric, or other elements");
   if (walls.method == WallMethod::ghost && !read.bodies.empty())
-    clash("numerics/walls/method",
+    clash(root, "numerics/walls/method",
           "ghost, which mirrors the particles at the tank's planes only; leave out the bodies, or choose boundary_integral");
   if (walls.method != WallMethod::ghost && walls.repulsion > 0.0)
-    clash("numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
+    clash(root, "numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
   if (walls.method == WallMethod::ghost && read.tank.motion != Motion::fixed)
-    clash("numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
+    clash(root, "numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
+}
+
+// What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
+void check_periodic(const Case& read, const Setting& root) {
+  const TankCase& tank = read.tank;
+  const auto& periodic = tank.periodic;
+  if (std::none_of(periodic.begin(), periodic.end(), [](bool along) { return along; })) return;
   // along x and y gravity may drive a channel; along z there is a free surface
-  if (read.tank.periodic[2] && read.gravity.z() != 0.0)
-    clash("tank/periodic", "periodic along z, along which gravity acts; set gravity to zero along z, or leave z out");
+  if (periodic[2] && read.gravity.z() != 0.0)
+    clash(root, "tank/periodic", "periodic along z, along which gravity acts; set gravity to zero along z, or leave z out");
+  if (tank.motion == Motion::free || tank.motion == Motion::commanded) {
+    const std::string word = motion_word().write(tank.motion, {read.dimensions})->text;
+    clash(root, "tank/periodic",
+          "for tanks that do not turn, and tank/motion is " + word + "; leave it out, or set tank/motion to fixed or prescribed");
+  }
+  const PrescribedCase& prescribed = tank.rigid.prescribed;
+  const std::set<Direction> directions = directions_of(prescribed);
+  if (std::any_of(directions.begin(), directions.end(), is_rotation))
+    clash(root, "tank/periodic",
+          "for tanks that do not turn, and tank/prescribed has a roll, pitch, yaw or angle; leave it out, or prescribe other directions "
+          "only");
+  for (std::size_t i = 0; i < prescribed.records.size(); ++i) {
+    if (prescribed.records[i].column.empty())
+      clash(root, join_path(join_path("tank/prescribed/records", i), "column"),
+            "missing; a periodic tank must not turn, so that the column that it follows must be named");
+  }
+}
+
+void check_probes(const Case& read, const Setting& root) {
+  for (std::size_t i = 0; i < read.instruments.pressure_probes.size(); ++i) {
+    const std::string& name = read.instruments.pressure_probes[i].body;
+    const auto is_it = [&](const BodyCase& body) { return body.name == name; };
+    if (name.empty() || std::any_of(read.bodies.begin(), read.bodies.end(), is_it)) continue;
+    std::string known;
+    for (const BodyCase& body : read.bodies) known += (known.empty() ? "" : ", ") + body.name;
+    clash(root, join_path(join_path("instruments/pressure_probes", i), "body"),
+          name + ", which is no body of the case; " + (known.empty() ? "it has none" : "name one of " + known) +
+              ", or leave it out for the tank");
+  }
 }
 
 }  // namespace
@@ -69,6 +109,7 @@ void check_case(const Case& read, const Setting& root) {
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
   check_walls(read, root);
+  check_periodic(read, root);
   check_joints(read, root);
   NameCheck names(read, root);
   names.check(read.bodies, "bodies");
@@ -76,6 +117,7 @@ void check_case(const Case& read, const Setting& root) {
     check_body_name(read.bodies[i].name, join_path(join_path("bodies", i), "name"), root);
   names.check(read.instruments.pressure_probes, "instruments/pressure_probes");
   names.check(read.instruments.wave_gauges, "instruments/wave_gauges");
+  check_probes(read, root);
 }
 
 }  // namespace wavetank::scene

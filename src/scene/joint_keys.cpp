@@ -45,13 +45,15 @@ Section<SixLimits> six_limits_section() {
     section.key(
         name, [direction](auto& target) -> auto& { return target[direction]; }, in_plane ? limits : only_in_3d(limits), unit, description);
   };
-  const std::string free = " from the start; left out = free, both the same = locked.";
-  add("surge", 0, interval(), true, "m", "Along x" + free);
-  add("sway", 1, interval(), false, "m", "Along y" + free);
-  add("heave", 2, interval(), true, "m", "Along z" + free);
-  add("roll", 3, angle_interval(), false, "°", "About x" + free);
-  add("pitch", 4, angle_interval(), true, "°", "About y" + free);
-  add("yaw", 5, angle_interval(), false, "°", "About z" + free);
+  const std::string free = " from the start; left out = free, both 0 = locked.";
+  add("surge", 0, limits(), true, "m", "Along x" + free);
+  add("sway", 1, limits(), false, "m", "Along y" + free);
+  add("heave", 2, limits(), true, "m", "Along z" + free);
+  // The angles are found within these, so that a limit beyond them would never act.
+  constexpr double half_turn = 180, upright = 90;
+  add("roll", 3, angle_limits(half_turn), false, "°", "About x" + free);
+  add("pitch", 4, angle_limits(upright), true, "°", "About y" + free);
+  add("yaw", 5, angle_limits(half_turn), false, "°", "About z" + free);
   return section;
 }
 
@@ -121,7 +123,7 @@ Section<JointCase> joint_section() {
   };
   add("parent_point", &JointCase::parent_point, if_given(position()), "m", "A spring's end on the parent at the start, required for it.");
   add("axis", &JointCase::axis, axis(), "", "Of hinge and slider; in 2-D along y for a hinge and [x, z] for a slider.");
-  add("limits", &JointCase::limits, if_given(interval()), "m or °",
+  add("limits", &JointCase::limits, if_given(limits()), "m or °",
       "Of a hinge in degrees, of a slider in metres, from the start; left out = free.");
   add("six_limits", &JointCase::six_limits, section_of(six_limits_section()), "", "Of six_dof.");
   add("stiffness", &JointCase::stiffness, number(at_least(0)), "N/m or N·m/rad",

@@ -1,7 +1,5 @@
 #include "motion_keys.h"
 
-#include <set>
-
 #include "motion_values.h"
 
 namespace wavetank::scene {
@@ -81,16 +79,6 @@ Section<RecordCase> record_section() {
   return section;
 }
 
-std::set<Direction> directions_of(const PrescribedCase& prescribed) {
-  std::set<Direction> directions;
-  for (const HarmonicCase& harmonic : prescribed.harmonics) directions.insert(harmonic.direction);
-  for (const RampCase& ramp : prescribed.ramps) directions.insert(ramp.direction);
-  for (const RecordCase& record : prescribed.records) {
-    if (const auto direction = direction_of(record)) directions.insert(*direction);
-  }
-  return directions;
-}
-
 // In 2-D nothing leaves the plane: strokes are in it, and what turns does so about y.
 void check_plane(const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context& context) {
   if (context.dimensions != 2) return;
@@ -103,6 +91,16 @@ void check_plane(const PrescribedCase& prescribed, const Setting& map, const std
 }
 
 }  // namespace
+
+std::set<Direction> directions_of(const PrescribedCase& prescribed) {
+  std::set<Direction> directions;
+  for (const HarmonicCase& harmonic : prescribed.harmonics) directions.insert(harmonic.direction);
+  for (const RampCase& ramp : prescribed.ramps) directions.insert(ramp.direction);
+  for (const RecordCase& record : prescribed.records) {
+    if (const auto direction = direction_of(record)) directions.insert(*direction);
+  }
+  return directions;
+}
 
 Section<PrescribedCase> prescribed_section() {
   Section<PrescribedCase> section;

@@ -1,6 +1,8 @@
 #include "motion_values.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
 
 namespace wavetank::scene {
 namespace {
@@ -12,10 +14,17 @@ const std::vector<std::pair<std::string, Direction>>& directions() {
   return words;
 }
 
-std::array<double, 2> read_interval(const Setting& setting, const Item& item, Context&) {
+// Of [low, high], with the start between them; neither further off than `greatest`.
+std::string describe_limits(double greatest) {
+  const Range low{-greatest, 0}, high{0, greatest};
+  return "low " + low.describe() + ", the start, and high " + high.describe();
+}
+
+std::array<double, 2> read_limits(const Setting& setting, const Item& item, double greatest) {
   const auto numbers = numbers_of(setting, item, 2, 2, "2 numbers [low, high]");
-  if (numbers[0] > numbers[1]) refuse(setting, item, "[low, high] with low at most high");
-  return {numbers[0], numbers[1]};
+  const double low = numbers[0], high = numbers[1];
+  if (low > 0 || high < 0 || std::max(-low, high) > greatest) refuse(setting, item, "[low, high] with " + describe_limits(greatest));
+  return {low, high};
 }
 
 bool is_positive_definite(const std::array<double, 6>& inertia) {
@@ -53,17 +62,19 @@ Codec<double> angle() {
   return codec;
 }
 
-Codec<std::array<double, 2>> interval() {
-  return {"[low, high]", "low at most high", read_interval,
+Codec<std::array<double, 2>> limits() {
+  constexpr double greatest = std::numeric_limits<double>::infinity();
+  return {"[low, high]", describe_limits(greatest),
+          [](const Setting& setting, const Item& item, Context&) { return read_limits(setting, item, greatest); },
           [](const std::array<double, 2>& value, const Context&) -> std::optional<Setting> {
             return list_of_numbers({value[0], value[1]});
           }};
 }
 
-Codec<std::array<double, 2>> angle_interval() {
-  return {"[low, high]", "low at most high",
-          [](const Setting& setting, const Item& item, Context& context) -> std::array<double, 2> {
-            const auto degrees = read_interval(setting, item, context);
+Codec<std::array<double, 2>> angle_limits(double greatest) {
+  return {"[low, high]", describe_limits(greatest),
+          [greatest](const Setting& setting, const Item& item, Context&) -> std::array<double, 2> {
+            const auto degrees = read_limits(setting, item, greatest);
             return {degrees[0] * degree, degrees[1] * degree};
           },
           [](const std::array<double, 2>& value, const Context&) -> std::optional<Setting> {

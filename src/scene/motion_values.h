@@ -6,13 +6,15 @@
 /// The kinds of value that motions and joints need besides those of values.h.
 namespace wavetank::scene {
 
-Codec<double> angle();                          ///< degrees in the setting, radians in the value
-Codec<std::array<double, 2>> interval();        ///< [low, high], low at most high
-Codec<std::array<double, 2>> angle_interval();  ///< the same, degrees in the setting, radians in the value
-Codec<Vector3d> vector_in_plane();              ///< 3 numbers; in 2-D also [x, z], and no y
-Codec<Vector3d> vector_about();                 ///< 3 numbers about the axes; in 2-D also one about y, and none about x and z
-Codec<Vector3d> axis();                         ///< 3 numbers, not all 0; in 2-D also [x, z]
-Codec<Direction> direction();                   ///< in 2-D only those that exist there
+Codec<double> angle();  ///< degrees in the setting, radians in the value
+/// [low, high] about the start, which is 0 and lies within.
+Codec<std::array<double, 2>> limits();
+/// The same, degrees in the setting, radians in the value; neither end is further off than `greatest` (°).
+Codec<std::array<double, 2>> angle_limits(double greatest);
+Codec<Vector3d> vector_in_plane();       ///< 3 numbers; in 2-D also [x, z], and no y
+Codec<Vector3d> vector_about();          ///< 3 numbers about the axes; in 2-D also one about y, and none about x and z
+Codec<Vector3d> axis();                  ///< 3 numbers, not all 0; in 2-D also [x, z]
+Codec<Direction> direction();            ///< in 2-D only those that exist there
 Codec<std::array<double, 6>> inertia();  ///< xx yy zz xy xz yz, positive definite; in 2-D also one number, yy, which alone is checked
 Codec<Motion> motion_word();
 

@@ -102,7 +102,7 @@ class OverrideWalk {
 }  // namespace
 
 void apply_override(Setting& root, const KeyDescription& root_keys, const Override& override) {
-  const std::string label = "--set " + override.key;
+  const std::string label = override.given_as + override.key;
   if (override.key.empty()) throw Error("--set: the key is empty; give KEY=VALUE, as in fluid/spacing=0.02");
   Setting value = parse_settings(override.value, label);
   OverrideWalk walk(root, root_keys, label);

@@ -64,17 +64,18 @@ auto of_rigid(Member member) {
 
 template <class T>
 void add_mass_keys(Section<T>& section) {
-  const std::string whose = is_tank<T> ? "Of the tank without the water, needed if it is free" : "Of a free body, or else its density";
+  const std::string whose = is_tank<T> ? "Of the tank without the water, required if it is free" : "Of a free body, or else its density";
   section.key("mass", of_rigid(&RigidCase::mass), number_if_given(greater_than(0)), "kg", whose + "; in 2-D a metre of width (kg/m).");
   if constexpr (!is_tank<T>) {  // walls have no volume
     section.key("density", of_rigid(&RigidCase::density), number_if_given(greater_than(0)), "kg/m³",
                 "Of a free body, of the volume that it encloses, or else its mass.");
   }
-  section.key("centre_of_mass", of_rigid(&RigidCase::centre_of_mass), if_given(position()), "m",
-              "At the start; if it is left out, the centre of volume.");
   section.key(
-      "inertia", of_rigid(&RigidCase::inertia), if_given(inertia()), "kg·m²",
-      "About the centre of mass; if it is left out, that of uniform density. In 2-D only yy counts (kg·m), and may be given alone.");
+      "centre_of_mass", of_rigid(&RigidCase::centre_of_mass), if_given(position()), "m",
+      is_tank<T> ? "Likewise, at the start; required if the tank is free." : "At the start; if it is left out, the centre of volume.");
+  const std::string otherwise = is_tank<T> ? "required if the tank is free" : "if it is left out, that of uniform density";
+  section.key("inertia", of_rigid(&RigidCase::inertia), if_given(inertia()), "kg·m²",
+              "About the centre of mass; " + otherwise + ". In 2-D only yy counts (kg·m), and may be given alone.");
 }
 
 template <class T>
@@ -112,7 +113,8 @@ struct MotionKey {
   Motion motion;
 };
 const MotionKey motion_keys[] = {{"velocity", Motion::free},     {"angular_velocity", Motion::free}, {"prescribed", Motion::prescribed},
-                                 {"command", Motion::commanded}, {"forces", Motion::free},           {"moorings", Motion::free}};
+                                 {"command", Motion::commanded}, {"forces", Motion::free},           {"moorings", Motion::free},
+                                 {"water_film", Motion::free}};
 
 template <class T>
 void add_motion_keys(Section<T>& section) {
@@ -130,6 +132,11 @@ void add_motion_keys(Section<T>& section) {
   add("command", &RigidCase::command, section_of(command_section()), "", "Limits on the motion, if commanded.");
   add("forces", &RigidCase::forces, list_of(force_section()), "", "From outside, on what is free.");
   add("moorings", &RigidCase::moorings, list_of(mooring_section()), "", "Lines that hold what is free: springs with dampers.");
+  if constexpr (!is_tank<T>) {
+    add("water_film", &RigidCase::water_film, flag(), "",
+        "Whether a film of water presses on what of a free body lies on a wall, or nearer to it than a spacing; if not, it is sealed "
+        "there.");
+  }
 }
 
 void check_collision(const RigidCase& rigid, const Setting& map, const std::string& path) {
@@ -139,6 +146,16 @@ void check_collision(const RigidCase& rigid, const Setting& map, const std::stri
   if (!by_parts && map.find("collision_parts") != nullptr)
     refuse_key(map, path, "collision_parts",
                "is for collision: parts only; leave it out, or set " + join_path(path, "collision") + " to parts");
+}
+
+// Its walls have no volume to find these from.
+void check_free_tank(const RigidCase& rigid, const Setting& map, const std::string& path) {
+  const auto demand = [&](bool given, const std::string& key, const std::string& what) {
+    if (!given) refuse_key(map, path, key, "is missing; a free tank needs its " + what);
+  };
+  demand(rigid.mass.has_value(), "mass", "mass (kg)");
+  demand(rigid.centre_of_mass.has_value(), "centre_of_mass", "centre of mass ([x, y, z], m)");
+  demand(rigid.inertia.has_value(), "inertia", "inertia ([xx, yy, zz, xy, xz, yz], kg·m²)");
 }
 
 template <class T>
@@ -151,10 +168,12 @@ void check_rigid(const T& whole, const Setting& map, const std::string& path, co
   }
   if (rigid.mass && rigid.density)
     throw Error(map.find("density")->place.describe() + ": " + path + " has both mass and density; give exactly one of them");
-  if (whole.motion == Motion::free && !rigid.mass && !rigid.density) {
-    refuse_key(map, path, "mass",
-               is_tank<T> ? "is missing; a free tank needs its mass (kg)"
-                          : "is missing; a free body needs exactly one of mass (kg) and density (kg/m³)");
+  if (whole.motion == Motion::free) {
+    if constexpr (is_tank<T>) {
+      check_free_tank(rigid, map, path);
+    } else if (!rigid.mass && !rigid.density) {
+      refuse_key(map, path, "mass", "is missing; a free body needs exactly one of mass (kg) and density (kg/m³)");
+    }
   }
   const PrescribedCase& prescribed = rigid.prescribed;
   if (whole.motion == Motion::prescribed && prescribed.harmonics.empty() && prescribed.ramps.empty() && prescribed.records.empty())

@@ -76,4 +76,17 @@ void build_robots(Case& read, const Setting& root, const Surroundings& surroundi
   read.robots.clear();
 }
 
+std::vector<std::string> robot_parameters(const Setting& root) {
+  std::vector<std::string> names;
+  const auto add = [&names](const Setting& robot) {
+    const Setting* parameter = robot.find("parameter");
+    if (parameter != nullptr && parameter->kind == Setting::Kind::scalar) names.push_back(parameter->text);
+  };
+  const Setting* robots = root.find("robots");
+  if (robots == nullptr) return names;
+  for (const Setting& robot : robots->items) add(robot);
+  for (const Setting::Entry& robot : robots->entries) add(robot.second);  // by index, as overrides and ROS parameters can name them
+  return names;
+}
+
 }  // namespace wavetank::scene

@@ -9,4 +9,7 @@ namespace wavetank::scene {
 /// not found or not read, and for what this tank has no equal of, naming the file or parameter and the link or joint.
 void build_robots(Case& read, const Setting& root, const Surroundings& surroundings);
 
+/// The names under robots/N/parameter in a tree that nothing else has been checked of.
+std::vector<std::string> robot_parameters(const Setting& root);
+
 }  // namespace wavetank::scene

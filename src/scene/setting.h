@@ -10,7 +10,7 @@ namespace wavetank::scene {
 
 /// Where a setting was given: a line of a file, or an override.
 struct Place {
-  std::shared_ptr<const std::string> source;  ///< file, parameter namespace or "--set KEY"
+  std::shared_ptr<const std::string> source;  ///< file, parameter namespace or override ("--set KEY")
   int line = 0;                               ///< from 1; 0 = the source has no lines
   std::string describe() const;               ///< "file:12" or "--set KEY"
 };

@@ -13,7 +13,7 @@ namespace wavetank::scene {
 void check_structure(const Setting& root, const KeyDescription& root_keys);
 
 /// Puts one override into the tree: what it replaces goes, and so do the keys that it excludes (fluid/particles those of fluid/spacing).
-/// Throws Error naming "--set KEY".
+/// Throws Error naming the override as it was given ("--set KEY").
 void apply_override(Setting& root, const KeyDescription& root_keys, const Override& override);
 
 /// "; did you mean PATH?", or "; the keys of SECTION are ..." when nothing known is near.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 #include "wavetank/common/error.h"
@@ -20,6 +21,11 @@ constexpr double safe_step = 2.0;
 /// What a body's surface makes of a layer of water on it: ∫ n nᵀ dS and ∫ (r × n)(r × n)ᵀ dS about the centre of mass.
 struct Surface {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Zero(), angular = Eigen::Matrix3d::Zero();
+
+  void operator+=(const Surface& other) {
+    linear += other.linear;
+    angular += other.angular;
+  }
 };
 
 Surface surface_of(const Layout& layout, int owner, const Vector3d& centre, int dimensions) {
@@ -65,10 +71,13 @@ Coupling::Coupling(RigidWorld& world, const Case& scene, const Layout& layout, c
       longest_time_step_(std::numeric_limits<double>::infinity()) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) belts_[b + 1] = scene.bodies[b].surface_velocity;
   for (std::size_t o = 0; o < world.count(); ++o) {
+    const bool rides_free_tank = !world.moves(o) && world.is_free(0);
+    if (world.is_free(o) || rides_free_tank) coupled_.push_back(static_cast<int>(o));
     if (!world.is_free(o)) continue;
-    coupled_.push_back(static_cast<int>(o));
-    const double ratio = greatest_ratio(surface_of(layout, static_cast<int>(o), world.reference(o), scene.dimensions), world.properties(o),
-                                        scene.dimensions);  // 1/(kg/m²)
+    Surface surface = surface_of(layout, static_cast<int>(o), world.reference(o), scene.dimensions);
+    for (std::size_t rider = 1; o == 0 && rider < world.count(); ++rider)
+      if (!world.moves(rider)) surface += surface_of(layout, static_cast<int>(rider), world.reference(o), scene.dimensions);
+    const double ratio = greatest_ratio(surface, world.properties(o), scene.dimensions);  // 1/(kg/m²)
     const double density = scene.fluid.density;
     relaxation_[o] = 1.0 / (1.0 + answering_layer * d.smoothing_length * density * ratio);
     longest_time_step_ = std::min(longest_time_step_, safe_step / (density * d.sound_speed * ratio));
@@ -130,7 +139,13 @@ WallMotions Coupling::to_end(double time_step, const std::vector<WallWrench>& wr
     const WallWrench& wrench = wrenches[k];
     loads[coupled_[k]] = {tank_at_middle_ * (wrench[0] + wrench[1]), tank_at_middle_ * (wrench[2] + wrench[3])};
   }
+  for (std::size_t o = 0; o < film_.size(); ++o) {
+    loads[o].force += tank_at_middle_ * film_[o].force;
+    loads[o].torque += tank_at_middle_ * film_[o].torque;
+  }
+  const auto begin = std::chrono::steady_clock::now();
   world_.advance(time_, time_step, loads);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   time_ += time_step;
   for (const int o : coupled_) {
     const RigidState state = world_.state(o);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "wavetank/rigid/rigid_world.h"
@@ -24,6 +25,10 @@ class Coupling final : public WallMover {
   /// The walls as the world has them now.
   WallMotions now() const;
   void set_time(double time) { time_ = time; }
+  /// What presses on the owners in the next step besides the particles: one load an owner, in the tank's axes, or none.
+  void set_film(std::vector<RigidLoad> loads) { film_ = std::move(loads); }
+  /// Wall time so far in the rigid world's steps, s.
+  double seconds() const { return seconds_; }
   /// The longest step in which the sound between the fluid and a free body does not grow, s; infinite without such bodies.
   double longest_time_step() const { return longest_time_step_; }
 
@@ -44,8 +49,10 @@ class Coupling final : public WallMover {
   std::vector<Vector3d> belts_;
   std::vector<double> relaxation_;  ///< θ of each owner
   std::vector<Felt> felt_;
+  std::vector<RigidLoad> film_;
   double longest_time_step_;
   double time_ = 0;
+  double seconds_ = 0;
   Quaterniond tank_at_middle_ = Quaterniond::Identity();
 };
 

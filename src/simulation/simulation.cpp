@@ -1,6 +1,7 @@
 #include "wavetank/simulation/simulation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 
 #include "coupling.h"
 #include "snapshot.h"
+#include "water_film.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/compute/device.h"
@@ -36,28 +38,44 @@ std::vector<Vector3d> reference_points(const RigidWorld& world) {
   return points;
 }
 
-/// What the speed of sound must allow for beside the water's own fall: prescribed motions, and the fall of bodies, m/s.
+/// The greatest distance of the box from a point, m.
+double reach_of(const Box& box, const Vector3d& point) {
+  return (box.max - point).cwiseAbs().cwiseMax((box.min - point).cwiseAbs()).norm();
+}
+
+/// What the speed of sound must allow for beside the water's own fall: motions that are prescribed or limited, and the fall of bodies, m/s.
 double fastest_wall(const Case& scene, const Layout& layout, const ResourceResolver& resolve) {
   double fastest = 0;
-  const auto look_at = [&](Motion motion, const RigidCase& rigid, const TriangleMesh& mesh, const std::string& what) {
+  const auto look_at = [&](Motion motion, const RigidCase& rigid, const TriangleMesh& mesh, const Vector3d& reference,
+                           const std::string& what) {
     const Box box = mesh.bounding_box();
-    if (motion == Motion::prescribed)
-      fastest = std::max(fastest, PrescribedMotion(rigid.prescribed, rigid.prescribed.point.value_or(Vector3d::Zero()), scene.dimensions,
-                                                   scene.directory, resolve, what)
-                                      .greatest_speed(box, scene.duration));
-    if (motion != Motion::free) return;
-    const double fall = std::max(box.min.z() - layout.domain.min.z(), 0.0);
-    fastest = std::max(fastest, rigid.velocity.norm() + std::sqrt(2.0 * scene.gravity.norm() * fall));
+    double speed = 0;
+    if (motion == Motion::prescribed) {
+      speed = PrescribedMotion(rigid.prescribed, reference, scene.dimensions, scene.directory, resolve, what)
+                  .greatest_speed(box, scene.duration);
+    } else if (motion == Motion::commanded) {
+      speed = rigid.command.greatest_speed.value_or(0) + rigid.command.greatest_angular_speed.value_or(0) * reach_of(box, reference);
+    } else if (motion == Motion::free) {
+      const double fall = std::max(box.min.z() - layout.domain.min.z(), 0.0);
+      speed = rigid.velocity.norm() + std::sqrt(2.0 * scene.gravity.norm() * fall);
+    }
+    fastest = std::max(fastest, speed);
   };
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    look_at(scene.bodies[b].motion, scene.bodies[b].rigid, layout.meshes[b + 1], "body '" + scene.bodies[b].name + "'");
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyCase& body = scene.bodies[b];
+    if (body.motion == Motion::fixed) continue;
+    const std::string what = "body '" + body.name + "'";
+    const TriangleMesh& mesh = layout.meshes[b + 1];
+    look_at(body.motion, body.rigid, mesh, mass_properties(body.rigid, mesh, scene.dimensions, what, body.motion == Motion::free).centre,
+            what);
+  }
   // a tank's own motion is not seen in its frame, but what the water makes of a standstill is
-  if (scene.tank.motion == Motion::prescribed) look_at(scene.tank.motion, scene.tank.rigid, layout.meshes[0], "tank");
+  if (scene.tank.motion != Motion::free) look_at(scene.tank.motion, scene.tank.rigid, layout.meshes[0], Vector3d::Zero(), "tank");
   return fastest;
 }
 
-/// Tells one geometry from another (FNV-1a): a case names its meshes, but does not hold them.
-std::uint64_t fingerprint(const Layout& layout) {
+/// Tells one geometry, and prescribed motions, from others (FNV-1a): a case names its meshes and records, but does not hold them.
+std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWorld& world) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto add = [&hash](const double* values, std::size_t count) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values);
@@ -69,16 +87,29 @@ std::uint64_t fingerprint(const Layout& layout) {
     add(wall.normal.data(), 3);
     add(&wall.area, 1);
   }
+  std::vector<std::size_t> prescribed;
+  if (scene.tank.motion == Motion::prescribed) prescribed.push_back(0);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].motion == Motion::prescribed) prescribed.push_back(1 + b);
+  constexpr double interval = 0.01, end = 20;  // s
+  for (double time = 0; !prescribed.empty() && time < end; time += interval) {
+    const std::vector<RigidState> states = world.at_middle(time, interval);
+    for (const std::size_t owner : prescribed) {
+      add(states[owner].position.data(), 3);
+      add(states[owner].orientation.coeffs().data(), 4);
+    }
+  }
   return hash;
 }
 
 /// The case and its geometry as far as they decide the flow and the samples: what a snapshot must agree on.
-std::string flow_of(Case scene, const Layout& layout) {
+std::string flow_of(Case scene, const Layout& layout, const RigidWorld& world) {
+  const std::uint64_t geometry = fingerprint(scene, layout, world);
   scene.title.clear();
   scene.duration = 1;
   scene.device = "auto";
   scene.publishing = PublishingCase{};
-  return write_case(scene) + "geometry " + std::to_string(fingerprint(layout)) + "\n";
+  return write_case(scene) + "geometry " + std::to_string(geometry) + "\n";
 }
 
 /// Elements or facets, whichever the case has; ghosts have facets for the guard.
@@ -108,12 +139,15 @@ struct Simulation::Parts {
         discretisation(discretise(scene, layout)),
         world(scene, layout, options.resolve),
         coupling(world, scene, layout, discretisation),
+        film(world, scene, layout, discretisation),
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
-        recorder(scene, layout, *solver, world) {
+        recorder(scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); }) {
     tell_of_thin_walls(scene, discretisation, *solver);
     solver->limit_time_step(coupling.longest_time_step());
     initial_bodies = world.save();
+    for (std::size_t o = 0; o < world.count(); ++o) reaches.push_back(reach_of(layout.meshes[o].bounding_box(), world.reference(o)));
+    left_tank.resize(world.count(), false);
   }
 
   Layout laid_out(const Case& checked) const {
@@ -134,7 +168,22 @@ struct Simulation::Parts {
     if (options.progress) options.progress(what, fraction);
   }
 
-  void check(const StepReport& report) const;
+  /// The fluid's, with those of films that particles do not resolve.
+  std::vector<WallWrench> wrenches(Solver& fluid) const {
+    std::vector<WallWrench> wrenches = fluid.wrenches();
+    const std::vector<RigidLoad> films = film.loads(fluid, coupling.now().frame);
+    for (std::size_t o = 0; o < wrenches.size(); ++o) {
+      wrenches[o][0] += films[o].force;
+      wrenches[o][2] += films[o].torque;
+    }
+    return wrenches;
+  }
+
+  void advance();
+  void check(const StepReport& report);
+  /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
+  void check_bodies();
+  std::string when() const;
   /// Bodies and what the fluid has been told of them, as bytes; and back.
   std::vector<char> saved_bodies() const;
   void restore_bodies(const std::vector<char>& bytes);
@@ -146,6 +195,7 @@ struct Simulation::Parts {
   Discretisation discretisation;
   RigidWorld world;
   Coupling coupling;
+  WaterFilm film;
   compute::Device device;
   std::unique_ptr<Solver> solver;
   Recorder recorder;
@@ -157,6 +207,8 @@ struct Simulation::Parts {
   std::uint64_t step = 0;
   std::uint64_t guard_hits = 0;
   StepReport report;
+  std::vector<double> reaches;  ///< of each owner, of its bounding box from its reference point at the start, m
+  std::vector<bool> left_tank;  ///< of each owner: it has, and that was said
 };
 
 std::vector<char> Simulation::Parts::saved_bodies() const {
@@ -180,8 +232,7 @@ void Simulation::Parts::restore_bodies(const std::vector<char>& bytes) {
 }
 
 /// Throws Violation for a step that the simulation may not go on from.
-void Simulation::Parts::check(const StepReport& r) const {
-  const std::string when = " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops";
+void Simulation::Parts::check(const StepReport& r) {
   if (r.offender >= 0) {
     std::string what;
     const auto add = [&](int count, const std::string& text) {
@@ -191,11 +242,33 @@ void Simulation::Parts::check(const StepReport& r) const {
     add(r.outside, " outside the tank");
     add(r.too_fast, " faster than half the speed of sound (" + number(0.5 * discretisation.sound_speed) + " m/s)");
     throw Violation("particles in violation: " + what + "; the first is particle " + std::to_string(r.offender_id) + " at " +
-                    point(r.offender_position) + " m with velocity " + point(r.offender_velocity) + " m/s," + when);
+                    point(r.offender_position) + " m with velocity " + point(r.offender_velocity) + " m/s," + when());
   }
   if (!(r.time_step >= discretisation.least_time_step))
     throw Violation("the time step collapsed to " + number(r.time_step) + " s (greatest speed " + number(r.greatest_speed) +
-                    " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when);
+                    " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when());
+  check_bodies();
+}
+
+void Simulation::Parts::check_bodies() {
+  for (std::size_t o = 1; o < world.count(); ++o) {
+    if (!world.moves(o)) continue;
+    const std::string what = "body '" + scene.bodies[o - 1].name + "'";
+    const RigidState state = world.state_in_tank(o);
+    const double speed = state.velocity.norm() + state.angular_velocity.norm() * reaches[o];
+    if (!(speed < 0.5 * discretisation.sound_speed))
+      throw Violation(what + " moves at " + number(speed) + " m/s, faster than half the speed of sound (" +
+                      number(0.5 * discretisation.sound_speed) + " m/s)," + when());
+    const Vector3d beyond = (layout.domain.min - state.position).cwiseMax(state.position - layout.domain.max);
+    const double farthest = std::max({beyond.x(), beyond.z(), scene.dimensions == 3 ? beyond.y() : -1.0});
+    if (left_tank[o] || farthest < reaches[o]) continue;
+    left_tank[o] = true;
+    log(LogLevel::warning, what + " has left the tank: it is at " + point(state.position) + " m at t = " + number(time) + " s.");
+  }
+}
+
+std::string Simulation::Parts::when() const {
+  return " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops";
 }
 
 Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(std::make_unique<Parts>(checked, std::move(options))) {
@@ -221,17 +294,27 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
 Simulation::~Simulation() = default;
 
 void Simulation::advance() {
-  Parts& parts = *parts_;
-  const double next_time = parts.time + parts.time_step;
-  parts.recorder.before_step(*parts.solver, parts.time, next_time);
-  parts.coupling.set_time(parts.time);
-  parts.report = parts.solver->advance(parts.world.anything_moves() ? &parts.coupling : nullptr);
-  const double time = std::exchange(parts.time, next_time);
-  ++parts.step;
-  parts.guard_hits += static_cast<std::uint64_t>(parts.report.guard_hits);
-  parts.check(parts.report);
-  parts.time_step = parts.report.time_step;
-  parts.recorder.after_step(*parts.solver, time, next_time);
+  try {
+    parts_->advance();
+  } catch (const Violation&) {
+    throw;
+  } catch (const Error& error) {  // a lost device, say: what is known until here is worth keeping
+    throw Violation(error.what() + parts_->when());
+  }
+}
+
+void Simulation::Parts::advance() {
+  const double next_time = time + time_step;
+  recorder.before_step(*solver, time, next_time);
+  coupling.set_time(time);
+  coupling.set_film(film.loads(*solver, coupling.now().frame));
+  report = solver->advance(world.anything_moves() ? &coupling : nullptr);
+  const double last_time = std::exchange(time, next_time);
+  ++step;
+  guard_hits += static_cast<std::uint64_t>(report.guard_hits);
+  check(report);
+  time_step = report.time_step;
+  recorder.after_step(*solver, last_time, next_time);
 }
 
 void Simulation::reset() {
@@ -244,6 +327,7 @@ void Simulation::reset() {
   parts.guard_hits = 0;
   parts.report = StepReport{};
   parts.report.time_step = parts.initial_time_step;
+  parts.left_tank.assign(parts.left_tank.size(), false);
   parts.recorder.take();
   parts.recorder.start(*parts.solver);
 }
@@ -253,7 +337,7 @@ void Simulation::save(const std::string& path) const {
   Snapshot snapshot;
   snapshot.version = version();
   snapshot.device = device_description();
-  snapshot.scene = flow_of(parts.scene, parts.layout);
+  snapshot.scene = flow_of(parts.scene, parts.layout, parts.world);
   snapshot.time = parts.time;
   snapshot.time_step = parts.time_step;
   snapshot.step = parts.step;
@@ -267,9 +351,10 @@ void Simulation::save(const std::string& path) const {
 void Simulation::restore(const std::string& path) {
   Parts& parts = *parts_;
   const Snapshot snapshot = read_snapshot(path);
-  if (snapshot.scene != flow_of(parts.scene, parts.layout))
+  if (snapshot.scene != flow_of(parts.scene, parts.layout, parts.world))
     throw Error("the snapshot " + path +
-                " belongs to another case: everything but title, duration, device and publishing must be the same, meshes too.");
+                " belongs to another case: everything but title, duration, device and publishing must be the same, meshes and records of "
+                "motions too.");
   try {
     parts.solver->restore(snapshot.fluid);
   } catch (const Error& error) {
@@ -310,10 +395,7 @@ SolverState Simulation::state() const {
   return state;
 }
 
-EnergySample Simulation::energies() const {
-  const FluidEnergies energies = parts_->solver->energies();
-  return {parts_->time, energies.kinetic, energies.potential, energies.compression, energies.mass};
-}
+EnergySample Simulation::energies() const { return parts_->recorder.energies(*parts_->solver, parts_->time); }
 
 namespace {
 
@@ -376,6 +458,8 @@ std::string Simulation::summary() const {
 std::vector<KernelTime> Simulation::kernel_times() const {
   std::vector<KernelTime> times;
   for (const compute::KernelTiming& timing : parts_->device.timings()) times.push_back({timing.kernel, timing.launches, timing.seconds});
+  if (parts_->step > 0 && parts_->world.anything_moves())
+    times.push_back({"(host) bodies, contacts, joints", parts_->step, parts_->coupling.seconds()});
   return times;
 }
 

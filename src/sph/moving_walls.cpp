@@ -42,13 +42,15 @@ int fields_of(WallKind kind, int dimensions) {
 
 template <class Real>
 MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
-                               const WallArrays<Real>& walls, const std::vector<bool>& moving, const Discretisation& discretisation)
+                               const WallArrays<Real>& walls, const std::vector<bool>& moving, const std::vector<Vector3d>& centres,
+                               const Discretisation& discretisation)
     : device_(device), discretisation_(discretisation), radius_(moving.size(), 0.0), owner_moves_(moving.begin(), moving.end()) {
   for (int s = 0; s < walls.count; ++s) {
     const Facet& shape = walls.shapes[s];
     if (!moving.at(shape.owner)) continue;
     moving_.push_back(s);
-    for (const Vector3d& corner : shape.corners) radius_[shape.owner] = std::max(radius_[shape.owner], corner.norm());
+    for (const Vector3d& corner : shape.corners)
+      radius_[shape.owner] = std::max(radius_[shape.owner], (corner - centres[shape.owner]).norm());
   }
   if (moving_.empty()) return;
   if (walls.kind == WallKind::facets) {
@@ -79,9 +81,9 @@ bool MovingWalls<Real>::lists_hold(const std::vector<WallPose>& poses) const {
   if (listed_.empty()) return false;
   for (std::size_t o = 0; o < poses.size(); ++o) {
     if (!owner_moves_[o]) continue;
-    // x' − x'_listed = (Q − Q_listed) x + …: no point of the owner moves by more than this
+    // x' − x'_listed = (Q − Q_listed) (x − rest) + …: no point of the owner moves by more than this
     const Eigen::Matrix3d turn = poses[o].rotation - listed_[o].rotation;
-    const Vector3d shift = poses[o].of(Vector3d::Zero()) - listed_[o].of(Vector3d::Zero());
+    const Vector3d shift = poses[o].place - listed_[o].place;
     if (turn.norm() * radius_[o] + shift.norm() > (all_.size() > 0 ? element_margin : facet_margin) * discretisation_.spacing) return false;
   }
   return true;

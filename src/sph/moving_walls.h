@@ -22,9 +22,9 @@ struct WallPose {
 template <class Real>
 class MovingWalls {
  public:
-  /// `walls` as at rest; `moving`: of each owner.
+  /// `walls` as at rest; of each owner, whether it moves, and the point that its poses are about.
   MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const WallArrays<Real>& walls,
-              const std::vector<bool>& moving, const Discretisation& discretisation);
+              const std::vector<bool>& moving, const std::vector<Vector3d>& centres, const Discretisation& discretisation);
 
   /// Moves the walls that were given to the constructor; one pose an owner.
   void place(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
@@ -44,7 +44,7 @@ class MovingWalls {
   compute::Device device_;
   Discretisation discretisation_;
   std::vector<int> moving_;     ///< walls of owners that move
-  std::vector<double> radius_;  ///< of each owner: of its farthest corner from the case's origin, m
+  std::vector<double> radius_;  ///< of each owner: of its farthest corner from that point, m
   std::vector<char> owner_moves_;
   CellPairs still_;               ///< cells of the facets that stand
   std::vector<WallPose> listed_;  ///< the poses that the lists were made for

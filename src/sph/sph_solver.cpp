@@ -24,6 +24,22 @@ WallKind kind_of(const WallCase& walls) {
   return walls.elements == WallElements::semi_analytical ? WallKind::triangles : WallKind::rectangles;
 }
 
+// Of the spacing, how far a wall may move in a step: the guard looks a quarter of the spacing far.
+constexpr double wall_reach = 0.2;
+
+/// Something that what the guard takes can push.
+bool anything_free(const Case& scene) {
+  return scene.tank.motion == Motion::free ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyCase& body) { return body.motion == Motion::free; });
+}
+
+bool all_finite(const std::vector<WallWrench>& wrenches) {
+  for (const WallWrench& wrench : wrenches)
+    for (const Eigen::Vector3d& part : wrench)
+      if (!part.allFinite()) return false;
+  return true;
+}
+
 std::string build_options(const Case& scene, bool use_double, bool images, bool moving, bool moving_frame, bool thin) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
@@ -36,7 +52,7 @@ std::string build_options(const Case& scene, bool use_double, bool images, bool 
           << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped)
           << " -DFACETS=" << (kind_of(n.walls) == WallKind::facets) << " -DTRIANGLES=" << (kind_of(n.walls) == WallKind::triangles)
           << " -DGHOSTS=" << (n.walls.method == WallMethod::ghost) << " -DIMAGES=" << images << " -DMOVING_WALLS=" << moving
-          << " -DMOVING_FRAME=" << moving_frame << " -DTHIN_WALLS=" << thin
+          << " -DMOVING_FRAME=" << moving_frame << " -DTHIN_WALLS=" << thin << " -DGUARD_IMPULSES=" << anything_free(scene)
           << " -DSHEPARD_GEOMETRIC=" << (shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_MONOLITHIC=" << (shepard == ShepardFactor::monolithic)
           << " -DSHEPARD_VOLUMETRIC=" << (shepard == ShepardFactor::volumetric)
@@ -119,9 +135,15 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       energy_total_(device, field::energy_count),
       guard_hits_(device, count_),
+      guard_takers_(device, anything_free(scene) ? field::guard_owners * static_cast<std::size_t>(stride_) : 1),
       alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
-      alarm_(device, field::alarm_count) {
+      alarm_(device, field::alarm_count),
+      guard_lost_(device, anything_free(scene) ? 3 * field::guard_owners * static_cast<std::size_t>(stride_) : 1) {
   centres_ = centres;
+  guard_gives_ = anything_free(scene);
+  guard_impulses_.assign(guard_gives_ ? centres.size() * field::impulse_count : 0, 0.0);
+  guard_parts_ = Buffer(device, guard_impulses_.size() * chunks_);
+  guard_totals_ = Buffer(device, guard_impulses_.size());
   ghosts_ = scene.numerics.walls.method == WallMethod::ghost;
   elements_ = kind_ != WallKind::facets;
   for (std::size_t f = 0; f < layout.facets.size(); ++f)
@@ -140,7 +162,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   options_ = build_options(scene, std::is_same_v<Real, double>, !images.empty(), moving, moving_frame_, thin_.thinnest.has_value());
   find_boxes(layout);
   if (std::find(moving_.begin(), moving_.end(), true) != moving_.end())
-    moving_walls_.emplace(device, sources_, options_, walls_, moving_, discretisation_);
+    moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, discretisation_);
   grid_ = ParticleGrid(device, sources_, options_, discretisation.cells[0] * discretisation.cells[1] * discretisation.cells[2], count_);
   build_kernels();
   WallMotions motions;
@@ -164,6 +186,16 @@ void SphSolver<Real>::find_boxes(const Layout& layout) {
       box.max = found[facet.owner] ? Eigen::Vector3d(box.max.cwiseMax(corner)) : corner;
       found[facet.owner] = true;
     }
+  }
+}
+
+template <class Real>
+void SphSolver<Real>::find_fastest_wall(const WallMotions& motions) {
+  fastest_wall_ = 0;
+  for (std::size_t o = 1; o < centres_.size(); ++o) {
+    const Eigen::Vector3d reach = (boxes_[o].max - centres_[o]).cwiseAbs().cwiseMax((boxes_[o].min - centres_[o]).cwiseAbs());
+    const WallMotion& motion = motions.owners[o];
+    fastest_wall_ = std::max(fastest_wall_, motion.velocity.norm() + motion.angular_velocity.norm() * reach.norm());
   }
 }
 
@@ -259,6 +291,7 @@ void SphSolver<Real>::place_walls(const WallMotions& motions) {
   }
   motions_.upload(values);
   motion_centres_.upload(centres);
+  find_fastest_wall(motions);
   region_owners_.clear();
   if (!moving_walls_) return;
   moving_walls_->place(walls_, poses_);
@@ -290,6 +323,8 @@ void SphSolver<Real>::build_kernels() {
   const compute::Program reduce(device_, sources_, "reduce.cl", options_);
   watch_chunks_ = reduce.kernel("watch_chunks");
   watch_total_ = reduce.kernel("watch_total");
+  guard_chunks_ = reduce.kernel("guard_chunks");
+  guard_sums_ = reduce.kernel("guard_totals");
   energy_chunks_ = reduce.kernel("energy_chunks");
   energy_sum_ = reduce.kernel("energy_total");
   wrench_sums_ = reduce.kernel("wrench_totals");
@@ -346,7 +381,29 @@ void SphSolver<Real>::find_accelerations(const Buffer& state) {
 
 template <class Real>
 void SphSolver<Real>::guard() {
-  sweep(guard_kernel_, count_, state_, walls_, rates_, half_, time_step_, guard_hits_);
+  sweep(guard_kernel_, count_, state_, walls_, rates_, half_, time_step_, guard_hits_, guard_takers_, guard_lost_);
+  if (guard_gives_ && mover_ != nullptr) gather_guard_impulses();
+}
+
+template <class Real>
+void SphSolver<Real>::gather_guard_impulses() {
+  const int owners = static_cast<int>(centres_.size()), values = static_cast<int>(guard_impulses_.size());
+  guard_chunks_.launch(chunks_, count_, state_, stride_, guard_hits_, guard_takers_, guard_lost_, owners, motion_centres_, guard_parts_);
+  guard_sums_.launch(values, values, chunks_, guard_parts_, guard_totals_);
+  const std::vector<Real> totals = guard_totals_.download();
+  std::copy(totals.begin(), totals.end(), guard_impulses_.begin());
+}
+
+template <class Real>
+std::vector<WallWrench> SphSolver<Real>::wrenches_in_step() {
+  const std::vector<int> owners = mover_->coupled();
+  std::vector<WallWrench> wrenches = wrenches_at(half_, owners);
+  for (std::size_t k = 0; guard_gives_ && k < owners.size(); ++k) {
+    const double* impulse = &guard_impulses_[owners[k] * field::impulse_count];
+    wrenches[k][0] += Eigen::Vector3d(impulse) / step_;
+    wrenches[k][2] += Eigen::Vector3d(impulse + 3) / step_;
+  }
+  return wrenches;
 }
 
 template <class Real>
@@ -361,7 +418,10 @@ std::vector<Stage> SphSolver<Real>::symplectic() {
       {"accelerations", [this] { find_accelerations(half_); }},
       {"walls to the end",
        [this] {
-         if (mover_ != nullptr) place_walls(mover_->to_end(step_, wrenches_at(half_, mover_->coupled())));
+         if (mover_ == nullptr) return;
+         const std::vector<WallWrench> wrenches = wrenches_in_step();
+         load_lost_ = !all_finite(wrenches);
+         if (!load_lost_) place_walls(mover_->to_end(step_, wrenches));
        }},
       {"kick, and drift to the end", [this] { correct_.launch(count_, parameters_, count_, state_, half_, stride_, rates_, time_step_); }},
       {"guard", [this] { guard(); }},
@@ -374,6 +434,7 @@ std::vector<Stage> SphSolver<Real>::symplectic() {
 template <class Real>
 StepReport SphSolver<Real>::advance(WallMover* mover) {
   mover_ = mover;
+  load_lost_ = false;
   if (mover != nullptr) step_ = time_step_.download()[0];
   try {
     for (const Stage& stage : stages_) stage.run();
@@ -382,7 +443,9 @@ StepReport SphSolver<Real>::advance(WallMover* mover) {
     throw;
   }
   mover_ = nullptr;
-  return watch();
+  StepReport report = watch();
+  if (load_lost_ && report.valid()) throw Error("the force of the water on a body is not finite, though all of its particles are");
+  return report;
 }
 
 template <class Real>
@@ -390,8 +453,9 @@ StepReport SphSolver<Real>::watch() {
   watch_chunks_.launch(chunks_, parameters_, count_, state_, rates_, stride_, guard_hits_, watches_, alarms_);
   watch_total_.launch(1, parameters_, chunks_, watches_, alarms_, time_step_, alarm_);
   std::vector<Real> step = time_step_.download();
-  if (step[0] > static_cast<Real>(time_step_limit_)) {
-    step[0] = static_cast<Real>(time_step_limit_);
+  const double limit = std::min(time_step_limit_, wall_reach * discretisation_.spacing / fastest_wall_);
+  if (step[0] > static_cast<Real>(limit)) {
+    step[0] = static_cast<Real>(limit);
     time_step_.upload(step);
   }
   const std::vector<int> alarm = alarm_.download();
@@ -451,6 +515,7 @@ StepReport SphSolver<Real>::start_at_rest() {
   find_accelerations(state_);
   find_compression_rates();
   guard_hits_.fill_zero();
+  std::fill(guard_impulses_.begin(), guard_impulses_.end(), 0.0);
   return watch();
 }
 
@@ -515,7 +580,7 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     report.iterations = k;
     if (k == iterations) break;
     move_packed_.launch(count_, parameters_, count_, state_, half_, stride_, rates_);
-    sweep(guard_kernel_, count_, state_, guarded, rates_, half_, time_step_, guard_hits_);
+    sweep(guard_kernel_, count_, state_, guarded, rates_, half_, time_step_, guard_hits_, guard_takers_, guard_lost_);
     sort();
   }
   return report;
@@ -611,7 +676,8 @@ FluidEnergies SphSolver<Real>::energies() {
   energy_chunks_.launch(chunks_, parameters_, count_, state_, stride_, energy_parts_);
   energy_sum_.launch(1, chunks_, energy_parts_, energy_total_);
   const std::vector<Real> total = energy_total_.download();
-  FluidEnergies energies{total[0], total[1], total[2], total[3]};
+  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
+  if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
   const Eigen::Vector3d floor = discretisation_.lower + Eigen::Vector3d::Constant(0.5 * discretisation_.spacing) - discretisation_.origin;
   energies.potential += energies.mass * case_.gravity.z() * floor.z();
@@ -655,6 +721,7 @@ std::vector<char> SphSolver<Real>::save() const {
   append(step.data(), step.size() * sizeof(Real));
   const std::vector<double> listed = moving_walls_ ? moving_walls_->listed() : std::vector<double>();
   append(listed.data(), listed.size() * sizeof(double));
+  append(guard_impulses_.data(), guard_impulses_.size() * sizeof(double));
   append(id.data(), id.size() * sizeof(std::uint32_t));
   return bytes;
 }
@@ -664,8 +731,8 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   std::vector<Real> state(state_.size()), rates(rates_.size(), Real(0)), step(time_step_.size());
   std::vector<std::uint32_t> id(count_);
   std::vector<double> listed = moving_walls_ ? moving_walls_->listed() : std::vector<double>();
-  const std::size_t expected =
-      (state.size() + stride_ + step.size()) * sizeof(Real) + id.size() * sizeof(std::uint32_t) + listed.size() * sizeof(double);
+  const std::size_t expected = (state.size() + stride_ + step.size()) * sizeof(Real) + id.size() * sizeof(std::uint32_t) +
+                               (listed.size() + guard_impulses_.size()) * sizeof(double);
   if (bytes.size() != expected)
     throw Error("the snapshot's fluid has " + std::to_string(bytes.size()) + " bytes, but this case's has " + std::to_string(expected) +
                 ".");
@@ -678,6 +745,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   take(&rates[static_cast<std::size_t>(field::rate_compression) * stride_], stride_ * sizeof(Real));
   take(step.data(), step.size() * sizeof(Real));
   take(listed.data(), listed.size() * sizeof(double));
+  take(guard_impulses_.data(), guard_impulses_.size() * sizeof(double));
   take(id.data(), id.size() * sizeof(std::uint32_t));
   if (moving_walls_) moving_walls_->list_for(walls_, listed);
   state_.upload(state);

@@ -64,12 +64,17 @@ class SphSolver final : public Solver {
   void find_boxes(const Layout& layout);
   void place_walls(const WallMotions& motions);
   void place_barriers();
+  void find_fastest_wall(const WallMotions& motions);
   std::vector<WallWrench> wrenches_at(const Buffer& state, const std::vector<int>& owners);
   void find_regions(const std::vector<int>& owners);
   void load_walls(const Buffer& state);
   void find_accelerations(const Buffer& state);
   void find_compression_rates();
   void guard();
+  /// What the guard has just taken from the particles for the owners of walls.
+  void gather_guard_impulses();
+  /// On the coupled owners in the middle of the step, with what the guard took at the end of the last one.
+  std::vector<WallWrench> wrenches_in_step();
   StepReport watch();
 
   compute::Device device_;
@@ -88,10 +93,14 @@ class SphSolver final : public Solver {
   bool moving_frame_ = false;
   WallMover* mover_ = nullptr;  ///< during a step
   double time_step_limit_ = std::numeric_limits<double>::infinity();
-  double step_ = 0;  ///< of the step in progress, s
+  double step_ = 0;          ///< of the step in progress, s
+  bool load_lost_ = false;   ///< in this step, to values that are not finite
+  double fastest_wall_ = 0;  ///< of any point of a body, m/s
   bool ghosts_ = false;
-  bool elements_ = false;       ///< the walls are elements, with a pressure of their own
-  std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
+  bool guard_gives_ = false;            ///< bodies, or the tank, get what the guard takes
+  std::vector<double> guard_impulses_;  ///< impulse_count each owner, of the last step
+  bool elements_ = false;               ///< the walls are elements, with a pressure of their own
+  std::vector<double> levels_;          ///< by particle id, for the hydrostatic start
   Buffer state_, spare_, half_, rates_, gradient_;
   compute::Buffer<std::uint32_t> id_, spare_id_;
   ParticleGrid grid_;
@@ -110,9 +119,10 @@ class SphSolver final : public Solver {
   std::vector<int> region_owners_;  ///< that the regions were found for, at the present poses; empty: for none
   int region_items_ = 0;
   Buffer time_step_, watches_, energy_parts_, energy_total_;
-  compute::Buffer<int> guard_hits_, alarms_, alarm_;
+  compute::Buffer<int> guard_hits_, guard_takers_, alarms_, alarm_;
+  Buffer guard_lost_, guard_parts_, guard_totals_;
   compute::Kernel continuity_kernel_, momentum_kernel_, gradient_kernel_, loads_kernel_, packing_kernel_, points_kernel_, surface_kernel_,
-      guard_kernel_, forces_kernel_;
+      guard_kernel_, guard_chunks_, guard_sums_, forces_kernel_;
   compute::Kernel derive_, predict_, correct_, compress_, move_packed_, watch_chunks_, watch_total_, energy_chunks_, energy_sum_,
       packing_total_;
   compute::Kernel wrench_sums_;

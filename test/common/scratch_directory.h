@@ -24,8 +24,9 @@ class ScratchDirectory {
 
   const std::filesystem::path& path() const { return path_; }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
-  /// Writes a file and returns its path.
+  /// Writes a file, also within folders of its own, and returns its path.
   std::string write(const std::string& name, const std::string& content) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);
   }

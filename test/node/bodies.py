@@ -1,24 +1,30 @@
 #!/usr/bin/env python3
-"""Bodies that move, as others see and push them: odometry, tf, joints, wrenches and velocities from topics, reset; and a tank that moves."""
+"""Bodies that move, as others see and push them: odometry, tf, joints, wrenches and velocities from topics, reset; a tank that moves, a restored
+node, and a robot."""
 
 import math
+import os
+import signal
 import statistics
+import subprocess
 import sys
 import time
 import unittest
 
+import roslib.packages
 import rospy
 import rostest
 from ear import Ear
 from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, PointCloud2
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
-from wavetank.msg import ProbeArray, WaveGaugeArray
+from wavetank.msg import ProbeArray, SolverStatus, WaveGaugeArray
 
+FLOATING_BOX = os.path.join(os.path.dirname(os.path.abspath(__file__)), "floating_box.yaml")
 BOX = "/wavetank/bodies/box/odom"
 TROLLEY = "/wavetank/bodies/trolley/odom"
 CARRIAGE = "/carriage/bodies/tank/odom"
@@ -74,7 +80,7 @@ class Bodies(unittest.TestCase):
         rospy.init_node("bodies_test")
         cls.services = {}
         for node in ("wavetank", "carriage"):
-            for name, kind in (("pause", SetBool), ("step", Trigger), ("reset", Trigger)):
+            for name, kind in (("pause", SetBool), ("step", Trigger), ("reset", Trigger), ("save", Trigger)):
                 rospy.wait_for_service("/%s/%s" % (node, name), 60.0)
                 cls.services[node, name] = rospy.ServiceProxy("/%s/%s" % (node, name), kind, persistent=True)
         cls.call("pause", True, node="carriage")
@@ -296,7 +302,57 @@ class Bodies(unittest.TestCase):
         self.assertEqual(transform.header.stamp, last.header.stamp)
         self.assertEqual(transform.transform.translation.x, last.pose.pose.position.x)
 
-    def test_13_the_node_is_still_alive(self):
+    def test_13_a_cloud_of_a_tank_that_moves_can_be_placed_in_the_world_while_it_stands(self):
+        self.assertNotIn(self.ear.last(CARRIAGE).header.stamp.to_nsec(), self.stamps_of_clouds(), "no sample of poses is of the cloud's time")
+        clouds = self.stamps_of_clouds()
+        self.let_messages_arrive()
+        transforms = [t.header.stamp.to_nsec() for t in self.transforms("basin")]
+        self.assertEqual(transforms.count(clouds[-1]), 1, "the tank's place at the cloud's own time, once")
+        self.ear.subscribe_again("/tf")
+        self.ear.wait(lambda: len(self.transforms("basin")) > len(transforms), "the last pose", 5)
+        self.assertEqual(self.transforms("basin")[-1].header.stamp.to_nsec(), clouds[-1])
+
+    @classmethod
+    def stamps_of_clouds(cls):
+        """Of some that a paused tank sends, all the same."""
+        clouds = []
+        subscriber = rospy.Subscriber("/carriage/particles", PointCloud2, lambda cloud: clouds.append(cloud.header.stamp.to_nsec()))
+        cls.ear.wait(lambda: len(clouds) > 2, "clouds", 10)
+        subscriber.unregister()
+        return clouds
+
+    def test_14_a_restored_node_tells_where_everything_is_before_it_goes_on(self):
+        answer = self.services["wavetank", "save"]()
+        self.assertTrue(answer.success, answer.message)
+        rospy.set_param("/restored", {"case_file": FLOATING_BOX, "restore": answer.message, "world_frame": "copy", "wait_for_subscribers": 60.0})
+        topics = {"/restored/bodies/box/odom": Odometry, "/restored/joint_states": JointState, "/restored/status": SolverStatus, "/tf": TFMessage}
+        ear = Ear(topics, waited_for=())
+        node = subprocess.Popen([roslib.packages.find_node("wavetank", "wavetank_node")[0], "__name:=restored"])
+        try:
+            # It waits for listeners to its lists, of which there are none.
+            rospy.wait_for_service("/restored/pause", 60.0)
+            rospy.ServiceProxy("/restored/pause", SetBool)(True)
+            ear.wait(lambda: ear.all("/restored/status") and ear.last("/restored/status").step > 0, "the restored state")
+            self.let_messages_arrive()
+            time_of_state = round(ear.last("/restored/status").time * 1e9)
+            for topic in ("/restored/bodies/box/odom", "/restored/joint_states"):
+                self.assertEqual(ear.stamps(topic), [time_of_state], topic)
+            pose = ear.last("/restored/bodies/box/odom").pose.pose
+            placed = [t for message in ear.all("/tf") for t in message.transforms if t.child_frame_id == "copy/bodies/box"]
+            self.assertEqual([t.header.stamp.to_nsec() for t in placed], [time_of_state])
+            self.assertEqual(placed[0].transform.translation.x, pose.position.x)
+            self.assertLess(abs(pose.position.x - self.ear.last(BOX).pose.pose.position.x), 0.01, "where it was saved")
+        finally:
+            node.send_signal(signal.SIGINT)
+            node.wait(timeout=30)
+            os.remove(answer.message)
+
+    def test_15_a_robot_from_a_private_parameter_moves(self):
+        joints = rospy.wait_for_message("/robot/joint_states", JointState, 60.0)
+        self.assertEqual(joints.name, ["shoulder"])
+        self.assertNotEqual(joints.velocity[0], 0.0)
+
+    def test_16_the_node_is_still_alive(self):
         before = self.time()
         self.run_until(before + 0.02)
 

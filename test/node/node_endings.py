@@ -149,7 +149,7 @@ class NodeEndings(unittest.TestCase):
         subscriber.unregister()
         self.assertEqual(clock, sorted(clock))
 
-    def test_wrong_parameters_are_refused_with_their_name(self):
+    def test_what_cannot_be_read_laid_out_or_restored_is_refused(self):
         for number, (parameters, word) in enumerate(
             [
                 ({}, "case_file"),
@@ -157,7 +157,10 @@ class NodeEndings(unittest.TestCase):
                 ({"case_file": CASE, "fluid": {"densty": 1.0}}, "densty"),
                 ({"case_file": CASE, "exit_at_end": "perhaps"}, "exit_at_end"),
                 ({"case_file": CASE, "bag": "/no/such/a.bag"}, "/no/such/a.bag"),
-                ({"case_file": CASE, "duration": "long"}, "duration"),
+                ({"case_file": CASE, "duration": "long"}, "parameter ~duration: duration is long"),
+                ({"case_file": CASE, "bodies": [{"name": "step", "mesh": "none.stl"}]}, "parameter ~bodies: bodies/0/mesh: mesh file"),
+                ({"case_file": CASE, "fluid": {"fill": [{"box": {"min": [5, 0, 5], "max": [6, 0, 6]}}]}}, "fluid"),
+                ({"case_file": CASE, "restore": "/no/such/a.snapshot"}, "/no/such/a.snapshot"),
                 ({"title": "a", "duration": 1.0}, "fluid"),
             ]
         ):
@@ -166,6 +169,7 @@ class NodeEndings(unittest.TestCase):
             self.assertEqual(code, 2, output)
             self.assertIn(word, output)
             self.assertNotIn("terminate called", output)
+            self.assertEqual(os.listdir(self.folder), [])
 
 
 if __name__ == "__main__":

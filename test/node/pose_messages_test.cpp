@@ -94,19 +94,39 @@ TEST(PoseMessages, TransformsAgreeWithOdometry) {
   }
 }
 
-TEST(PoseMessages, JointStatesAreNamedInTheCasesOrder) {
+TEST(PoseMessages, JointStatesAreNamedInTheCasesOrderAndOnlyOfJointsWithAPosition) {
   Case example = moving_box_case();
-  example.joints.resize(2);
-  example.joints[0].name = "flap hinge";
-  example.joints[1].name = "spring";
+  const std::pair<const char*, JointType> joints_of_every_type[] = {{"weld", JointType::fixed},    {"flap hinge", JointType::hinge},
+                                                                    {"ball", JointType::ball},     {"spring", JointType::spring},
+                                                                    {"strut", JointType::six_dof}, {"rail", JointType::slider}};
   PoseSample sample = example_sample(0.5);
-  sample.joints = {{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}};
+  for (const auto& [name, type] : joints_of_every_type) {
+    example.joints.emplace_back();
+    example.joints.back().name = name;
+    example.joints.back().type = type;
+    sample.joints.emplace_back();
+  }
+  sample.joints[1] = {0.1, 0.2, 0.3};
+  sample.joints[3] = {1.0, 2.0, 3.0};
+  sample.joints[5] = {10.0, 20.0, 30.0};
   const sensor_msgs::JointState joints = PoseMessages(example, example_frames(example)).joint_states(sample, StampClock());
   EXPECT_EQ(joints.header.stamp, ros::Time(0.5));
-  EXPECT_EQ(joints.name, (std::vector<std::string>{"flap hinge", "spring"}));
-  EXPECT_EQ(joints.position, (std::vector<double>{0.1, 1.0}));
-  EXPECT_EQ(joints.velocity, (std::vector<double>{0.2, 2.0}));
-  EXPECT_EQ(joints.effort, (std::vector<double>{0.3, 3.0}));
+  EXPECT_EQ(joints.name, (std::vector<std::string>{"flap hinge", "spring", "rail"}));
+  EXPECT_EQ(joints.position, (std::vector<double>{0.1, 1.0, 10.0}));
+  EXPECT_EQ(joints.velocity, (std::vector<double>{0.2, 2.0, 20.0}));
+  EXPECT_EQ(joints.effort, (std::vector<double>{0.3, 3.0, 30.0}));
+}
+
+TEST(PoseMessages, JointsThatAllHaveNoPositionHaveNoTopic) {
+  Case example = moving_box_case();
+  example.joints.resize(1);
+  example.joints[0].type = JointType::ball;
+  PoseSample sample = example_sample(0.0);
+  sample.joints.resize(1);
+  std::vector<std::string> topics;
+  PoseMessages(example, example_frames(example))
+      .emit(sample, StampClock(), [&topics](const std::string& topic, const ros::Time&, const auto&) { topics.push_back(topic); });
+  EXPECT_EQ(topics, (std::vector<std::string>{"/tf", "bodies/box/odom"}));
 }
 
 TEST(PoseMessages, EverySampleGoesOutOnceWithItsOwnStamp) {

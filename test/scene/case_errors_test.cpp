@@ -252,6 +252,26 @@ TEST(BrokenFiles, AreRefused) {
   EXPECT_TRUE(contains(file_error("/dev/zero"), "larger than 16 MiB")) << file_error("/dev/zero");
 }
 
+TEST(BrokenFiles, ThatTheCaseNamesAreRefusedByLineAndKey) {
+  const ScratchDirectory directory;
+  const std::string box = "box: {size: [2, 1, 2]}";
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    return file_error(directory.write("case.yaml", replaced(sound, from, to)));
+  };
+  const std::string file = directory.file("case.yaml"), none = directory.file("none.stl");
+  EXPECT_EQ(refusal(box, "mesh: none.stl"), file + ":10: tank/mesh: mesh file '" + none + "' does not exist");
+  EXPECT_EQ(refusal(box, "mesh: " + none), file + ":10: tank/mesh: mesh file '" + none + "' does not exist");
+  EXPECT_EQ(refusal(box, "mesh: file://" + none), file + ":10: tank/mesh: mesh file '" + none + "' does not exist");
+  EXPECT_EQ(refusal("  - {name: pier, box: {min: [1, 0, 0], max: [2, 1, 1]}}", "  - name: pier\n    mesh: none.stl"),
+            file + ":13: bodies/0/mesh: mesh file '" + none + "' does not exist");
+  EXPECT_EQ(refusal(box, box + "\n  collision: parts\n  collision_parts: [{mesh: .}]"),
+            file + ":12: tank/collision_parts/0/mesh: mesh file '" + directory.file(".") + "' is not a regular file");
+  EXPECT_EQ(refusal(box, box + "\n  motion: prescribed\n  prescribed:\n    records:\n      - {file: none.csv}"),
+            file + ":14: tank/prescribed/records/0/file: motion record file '" + directory.file("none.csv") + "' does not exist");
+  EXPECT_EQ(refusal(box, "mesh: package://none/none.stl"), "(no error)") << "only ROS can tell";
+  EXPECT_EQ(refusal(box, "mesh: 'shape://sphere?radius=1'"), "(no error)");
+}
+
 TEST(BrokenOverrides, NameTheOption) {
   const auto message = [](const std::string& key, const std::string& value) { return error_of(sound, {{key, value}}); };
   EXPECT_EQ(message("fluid/densty", "3"), "--set fluid/densty: fluid/densty is not a known key; did you mean fluid/density?");

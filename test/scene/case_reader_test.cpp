@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <locale>
 
+#include "../common/scratch_directory.h"
 #include "wavetank/common/error.h"
 
 using namespace wavetank;
@@ -142,11 +143,13 @@ void expect_everything(const Case& read, const std::string& mesh) {
 TEST(CaseReader, ReadsEveryKey) { expect_everything(read_case_text(everything, "everything"), "meshes/hull.stl"); }
 
 TEST(CaseReader, WritesWhatItReads) {
+  const ScratchDirectory scratch;
+  const std::string mesh = scratch.write("meshes/hull.stl", "something");
   Case read = read_case_text(everything, "everything");
-  read.directory = "/somewhere";
+  read.directory = scratch.path();
   const std::string written = write_case(read);
   const Case again = read_case_text(written, "written");
-  expect_everything(again, "/somewhere/meshes/hull.stl");
+  expect_everything(again, mesh);
   EXPECT_EQ(write_case(again), written);
 }
 

@@ -43,6 +43,11 @@ joints:
 instruments: {pose_rate: 50}
 )";
 
+// Of the tank, from its motion on.
+const char* const prescribed_tank =
+    "motion: prescribed\n  prescribed:\n    axis: [0, 1, 0]\n    harmonics: [{direction: roll, amplitude: 5, frequency: 0.5}]\n"
+    "    ramps: [{direction: surge, change: 0.1, from: 1, to: 2}]\n    records: [{file: waves.csv, column: heave}]\n";
+
 class BrokenMovingCase : public testing::TestWithParam<Fault> {};
 
 }  // namespace
@@ -81,10 +86,37 @@ INSTANTIATE_TEST_SUITE_P(
               "",
               {"case.yaml:13: bodies/0/mass is missing; a free body needs exactly one of mass (kg) and density (kg/m³)"}},
         Fault{"FreeTankWithoutMass",
-              "motion: prescribed\n  prescribed:\n    axis: [0, 1, 0]\n    harmonics: [{direction: roll, amplitude: 5, frequency: 0.5}]\n"
-              "    ramps: [{direction: surge, change: 0.1, from: 1, to: 2}]\n    records: [{file: waves.csv, column: heave}]\n",
+              prescribed_tank,
               "motion: free\n",
               {"case.yaml:4: tank/mass is missing; a free tank needs its mass (kg)"}},
+        Fault{"FreeTankWithoutCentreOfMass",
+              prescribed_tank,
+              "motion: free\n  mass: 50\n  inertia: [1, 1, 1, 0, 0, 0]\n",
+              {"case.yaml:4: tank/centre_of_mass is missing; a free tank needs its centre of mass ([x, y, z], m)"}},
+        Fault{"FreeTankWithoutInertia",
+              prescribed_tank,
+              "motion: free\n  mass: 50\n  centre_of_mass: [1, 0.5, 0.8]\n",
+              {"case.yaml:4: tank/inertia is missing; a free tank needs its inertia ([xx, yy, zz, xy, xz, yz], kg·m²)"}},
+        Fault{"FreePeriodicTank",
+              prescribed_tank,
+              "motion: free\n  mass: 50\n  centre_of_mass: [1, 0.5, 0.8]\n  inertia: [1, 1, 1, 0, 0, 0]\n  periodic: [x]\n",
+              {"case.yaml:10: tank/periodic is for tanks that do not turn, and tank/motion is free; leave it out, or set tank/motion to "
+               "fixed "
+               "or prescribed"}},
+        Fault{"CommandedPeriodicTank",
+              prescribed_tank,
+              "motion: commanded\n  periodic: [x]\n",
+              {"case.yaml:7: tank/periodic is for tanks that do not turn, and tank/motion is commanded"}},
+        Fault{"RollingPeriodicTank",
+              "size: [2, 1, 2]}\n",
+              "size: [2, 1, 2]}\n  periodic: [x]\n",
+              {"case.yaml:6: tank/periodic is for tanks that do not turn, and tank/prescribed has a roll, pitch, yaw or angle"}},
+        Fault{"PeriodicTankThatFollowsAWholeFile",
+              "box: {size: [2, 1, 2]}\n  motion: prescribed\n  prescribed:\n    axis: [0, 1, 0]\n"
+              "    harmonics: [{direction: roll, amplitude: 5, frequency: 0.5}]\n"
+              "    ramps: [{direction: surge, change: 0.1, from: 1, to: 2}]\n    records: [{file: waves.csv, column: heave}]\n",
+              "box: {size: [2, 1, 2]}\n  periodic: [x]\n  motion: prescribed\n  prescribed: {records: [{file: waves.csv}]}\n",
+              {"case.yaml:8: tank/prescribed/records/0/column is missing; a periodic tank must not turn"}},
         Fault{"TankOfADensity", "motion: prescribed", "density: 500", {"case.yaml:6: tank/density is not a known key"}},
         Fault{"IndefiniteInertia",
               "[1, 2, 2.5, 0, 0, 0]",
@@ -189,7 +221,23 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"CrossedLimits",
               "limits: [-30, 30]",
               "limits: [30, -30]",
-              {"case.yaml:31: joints/0/limits is [30, -30]; it must be [low, high] with low at most high (m or °)"}},
+              {"case.yaml:31: joints/0/limits is [30, -30]; it must be [low, high] with low at most 0, the start, and high at least 0 (m "
+               "or °)"}},
+        Fault{"LimitsAboveTheStart", "limits: [-30, 30]", "limits: [20, 60]", {"case.yaml:31: joints/0/limits is [20, 60]; it must be"}},
+        Fault{"LimitsBelowTheStart", "limits: [-30, 30]", "limits: [-60, -20]", {"joints/0/limits is [-60, -20]; it must be"}},
+        Fault{"SliderAwayFromTheStart",
+              "type: hinge, parent: rudder, child: hull, point: [1.5, 0.45, 0.6], axis: [0, 0, 1], limits: [-30, 30]",
+              "type: slider, parent: rudder, child: hull, axis: [0, 0, 1], limits: [0.1, 0.2]",
+              {"case.yaml:31: joints/0/limits is [0.1, 0.2]; it must be [low, high] with low at most 0, the start, and high at least 0"}},
+        Fault{"SixLimitsAwayFromTheStart", "heave: [0, 1]", "heave: [0.5, 1]", {"joints/2/six_limits/heave is [0.5, 1]; it must be"}},
+        Fault{"PitchBeyondTheUpright",
+              "heave: [0, 1]",
+              "pitch: [-100, 0]",
+              {"case.yaml:33: joints/2/six_limits/pitch is [-100, 0]; it must be [low, high] with low from -90 to 0, the start, and high "
+               "from "
+               "0 to 90 (°)"}},
+        Fault{"RollBeyondHalfATurn", "heave: [0, 1]", "roll: [0, 181]", {"six_limits/roll is [0, 181]", "low from -180 to 0", "0 to 180"}},
+        Fault{"YawBeyondHalfATurn", "heave: [0, 1]", "yaw: [-360, 0]", {"six_limits/yaw is [-360, 0]", "low from -180 to 0"}},
         Fault{"OneLimit", "limits: [-30, 30]", "limits: 30", {"joints/0/limits is 30; it must be 2 numbers [low, high]"}},
         Fault{"CrossedSixLimits", "heave: [0, 1]", "roll: [1, 0]", {"joints/2/six_limits/roll is [1, 0]; it must be [low, high]", "(°)"}},
         Fault{"LimitsOfABall",
@@ -294,4 +342,6 @@ TEST(BrokenMovingCases, ByOverride) {
             "--set tank/prescribed/harmonics/0/frequency: tank/prescribed/harmonics/0/frequency is -1; it must be greater than 0 (Hz)");
   EXPECT_EQ(error_of(sound, {{"joints/0/stiffnes", "1"}}),
             "--set joints/0/stiffnes: joints/0/stiffnes is not a known key; did you mean joints/0/stiffness?");
+  EXPECT_EQ(error_of(sound, {{"joints/0/stiffnes", "1", "parameter ~"}}),
+            "parameter ~joints/0/stiffnes: joints/0/stiffnes is not a known key; did you mean joints/0/stiffness?");
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../common/scratch_directory.h"
 #include "wavetank/scene/case_reader.h"
 
 using namespace wavetank;
@@ -21,7 +22,7 @@ tank:
   friction: 0.1
   restitution: 0.2
   collision: parts
-  collision_parts: [{mesh: parts/floor.stl, scale: 0.001, translation: [1, 2, 3], rotation: [90, -45, 30]}, {mesh: /wall.stl}]
+  collision_parts: [{mesh: parts/floor.stl, scale: 0.001, translation: [1, 2, 3], rotation: [90, -45, 30]}, {mesh: "package://walls/wall.stl"}]
   prescribed:
     point: [1, 0.5, 0]
     axis: [1, 1, 0]
@@ -124,7 +125,7 @@ void expect_tank(const TankCase& tank, const std::string& folder) {
   EXPECT_DOUBLE_EQ(tank.rigid.collision_parts[0].scale, 0.001);
   expect_close(tank.rigid.collision_parts[0].translation, {1, 2, 3});
   expect_close(tank.rigid.collision_parts[0].rotation, {pi / 2, -pi / 4, pi / 6});
-  EXPECT_EQ(tank.rigid.collision_parts[1].uri, "/wall.stl");
+  EXPECT_EQ(tank.rigid.collision_parts[1].uri, "package://walls/wall.stl");
   expect_prescribed(tank.rigid.prescribed, folder);
 }
 
@@ -218,18 +219,20 @@ void expect_everything(const Case& read, const std::string& folder) {
 TEST(MovingCase, ReadsEveryKey) { expect_everything(read_case_text(everything, "everything"), ""); }
 
 TEST(MovingCase, WritesWhatItReads) {
+  const ScratchDirectory scratch;
+  for (const char* file : {"hull.stl", "yaw.csv", "parts/floor.stl", "motions/ship.csv"}) scratch.write(file, "something");
   Case read = read_case_text(everything, "everything");
-  read.directory = "/somewhere";
+  read.directory = scratch.path();
   const std::string written = write_case(read);
   const Case again = read_case_text(written, "written");
-  expect_everything(again, "/somewhere/");
+  expect_everything(again, scratch.file(""));
   EXPECT_EQ(write_case(again), written);
 }
 
 TEST(MovingCase, FillsInTheStructsDefaults) {
   const Case read = read_case_text(R"(duration: 2
 fluid: {spacing: 0.1, fill: [{box: {min: [0, 0, 0], max: [1, 1, 1]}}]}
-tank: {box: {size: [2, 1, 2]}, motion: free, mass: 5}
+tank: {box: {size: [2, 1, 2]}, motion: free, mass: 5, centre_of_mass: [1, 0.5, 1], inertia: [1, 1, 1, 0, 0, 0]}
 bodies:
   - {name: paddle, box: {min: [0.1, 0.1, 0.1], max: [0.2, 0.9, 1]}, motion: commanded}
 joints:
@@ -237,8 +240,8 @@ joints:
 )",
                                    "defaults");
   const RigidCase defaults;
-  EXPECT_FALSE(read.tank.rigid.centre_of_mass);
-  EXPECT_FALSE(read.tank.rigid.inertia);
+  EXPECT_FALSE(read.bodies[0].rigid.centre_of_mass);
+  EXPECT_FALSE(read.bodies[0].rigid.inertia);
   EXPECT_EQ(read.tank.rigid.friction, defaults.friction);
   EXPECT_EQ(read.bodies[0].rigid.command.greatest_acceleration, defaults.command.greatest_acceleration);
   EXPECT_EQ(read.joints[0].axis, JointCase{}.axis);
@@ -248,6 +251,16 @@ joints:
   for (const char* line : {"greatest_speed: none", "greatest_acceleration: 1\n", "pose_rate: auto", "parent: world", "timeout: 0.5"}) {
     EXPECT_NE(written.find(line), std::string::npos) << line;
   }
+}
+
+TEST(MovingCase, APeriodicTankMayMoveWithoutTurning) {
+  const Case read = read_case_text(R"(duration: 2
+fluid: {spacing: 0.1, fill: [{box: {min: [0, 0, 0], max: [1, 1, 1]}}]}
+tank: {box: {size: [2, 1, 2]}, periodic: [x], motion: prescribed,
+       prescribed: {harmonics: [{direction: surge, amplitude: 1, frequency: 1}], records: [{file: a.csv, column: sway}]}}
+)",
+                                   "periodic");
+  EXPECT_TRUE(read.tank.periodic[0]);
 }
 
 TEST(MovingCase, FlatVectorsLieInTheXZPlane) {

@@ -340,6 +340,17 @@ INSTANTIATE_TEST_SUITE_P(
               {"joint 'foot' hangs on link 'footprint', which has no shape and is free"}}),
     [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.name); });
 
+TEST(RobotParameters, AreTheirNamesWhateverElseIsWrong) {
+  using Names = std::vector<std::string>;
+  const std::string robots = "robots:\n  - {parameter: /arm/robot_description}\n  - {urdf: a.urdf}\n  - {parameter: b, densty: 1}\n";
+  EXPECT_EQ(robot_parameters_of_text(robots, "case.yaml"), (Names{"/arm/robot_description", "b"}));
+  EXPECT_EQ(robot_parameters_of_text("robots: {0: {parameter: c}}", "case.yaml"), Names{"c"}) << "as a list's index comes in overrides";
+  EXPECT_EQ(robot_parameters_of_text("robots: [1, {parameter: [d]}]", "case.yaml"), Names{});
+  EXPECT_EQ(robot_parameters_of_text("duration: 1", "case.yaml"), Names{});
+  const ScratchDirectory scratch;
+  EXPECT_EQ(robot_parameters_of_file(scratch.write("case.yaml", robots)), (Names{"/arm/robot_description", "b"}));
+}
+
 TEST(Robot, NothingIsMadeOfNoShapes) {
   const std::string empty = robot("<link name=\"frame\"/>");
   std::string message = "(no error)";

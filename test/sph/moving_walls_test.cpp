@@ -63,8 +63,14 @@ TEST(MovingWalls, AreWhereABodyLaidOutThereHasThem) {
       const Vector3d to = Vector3d(0.62, flat ? 0 : 0.53, 0.4) - orientation * middle;
       const Tank here(tank_with_box(dimensions, elements, from, Vector3d::Zero())), there(tank_with_box(dimensions, elements, to, turn));
       const std::unique_ptr<Solver> carried = solver_about(here, from), standing = solver_about(there, to);
-      for (int step = 1; step <= 20; ++step)
-        carried->set_wall_motions(placed(step / 20.0 * (to - from), Eigen::Quaterniond::Identity().slerp(step / 20.0, orientation)));
+      // the last step is so short, at most a twelfth of the spacing for any corner, that the lists made in the one before must still do
+      const double last =
+          0.08 * there.layout.spacing / ((to - from).norm() + orientation.angularDistance(Eigen::Quaterniond::Identity()) * 0.5);
+      for (int step = 0; step <= 20; ++step) {
+        const double share = (1 - last) * step / 19.0;
+        const double place = step == 20 ? 1.0 : share;
+        carried->set_wall_motions(placed(place * (to - from), Eigen::Quaterniond::Identity().slerp(place, orientation)));
+      }
 
       std::mt19937 random(7);
       std::uniform_real_distribution<double> uniform(-1, 1);

@@ -16,14 +16,18 @@ namespace wavetank {
 /// contains the sample's time and interpolated linearly, so instruments never change the steps.
 class Recorder {
  public:
-  /// `world` is looked at throughout.
-  Recorder(const Case& settled_case, const Layout& layout, const Solver& solver, const RigidWorld& world);
+  /// `world` is looked at throughout; `wrenches`: of each owner, as Solver::wrenches() has them and by default those.
+  Recorder(const Case& settled_case, const Layout& layout, const Solver& solver, const RigidWorld& world,
+           std::function<std::vector<WallWrench>(Solver&)> wrenches = &Solver::wrenches);
 
   /// The samples at time 0.
   void start(Solver& solver);
   /// Before the step from `time` to `next_time`, and after it.
   void before_step(Solver& solver, double time, double next_time);
   void after_step(Solver& solver, double time, double next_time);
+
+  /// At this instant.
+  EnergySample energies(Solver& solver, double time) const;
 
   Samples take();
 
@@ -41,6 +45,8 @@ class Recorder {
     bool due = false;  ///< its next sample lies in the present step
   };
 
+  /// Where the probes are now, in the tank.
+  std::vector<Vector3d> places_of_probes() const;
   void add_pressures(const Case& scene, const Solver& solver);
   void add_levels(const Case& scene, const Layout& layout, const Solver& solver);
   void add_wrenches(const Case& scene);
@@ -48,7 +54,11 @@ class Recorder {
   void add_energies(const Case& scene);
 
   const RigidWorld& world_;
+  Vector3d gravity_;
+  std::function<std::vector<WallWrench>(Solver&)> wrenches_;
   std::shared_ptr<PointSet> probes_;
+  std::vector<Vector3d> probe_places_;     ///< as the case's geometry has them, m
+  std::vector<std::size_t> probe_owners_;  ///< the body that each moves with; 0 = none
   std::shared_ptr<WaveGauges> gauges_;
   std::vector<Instrument> instruments_;
   Samples samples_;

@@ -40,10 +40,11 @@ struct PoseSample {
   std::vector<JointState> joints;  ///< in the case's order
 };
 
+/// Of the water.
 struct EnergySample {
   double time = 0;         ///< s
-  double kinetic = 0;      ///< J (2-D: J/m)
-  double potential = 0;    ///< J, −Σ m g·x about the domain's floor
+  double kinetic = 0;      ///< J (2-D: J/m), of its motion in the tank
+  double potential = 0;    ///< J, −Σ m g·x about the domain's floor at the start, wherever the tank is
   double compression = 0;  ///< J, of the fluid's elasticity
   double mass = 0;         ///< kg (2-D: kg/m)
 };

@@ -4,17 +4,19 @@
 #include <vector>
 
 #include "wavetank/geometry/layout.h"
+#include "wavetank/rigid/rigid_world.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
 
 /// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
 /// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
-/// A body on the line counts as water where water stands on it, and not where it is dry. The kernel smooths it over the support; the
-/// integral is taken with points a quarter of the spacing apart.
+/// A body on the line counts as water where water stands on it, and not where it is dry; bodies that move are looked for where they are.
+/// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
 class WaveGauges {
  public:
-  WaveGauges(const Case& scene, const Layout& layout, const Solver& solver);
+  /// `world` is looked at in every reading.
+  WaveGauges(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world);
   /// m, one a gauge.
   std::vector<double> read(Solver& solver) const;
 
@@ -23,9 +25,21 @@ class WaveGauges {
     double floor = 0;                ///< z where the line begins, m
     std::size_t begin = 0, end = 0;  ///< its points
   };
+  struct Solid {  ///< a body that moves, as the case's geometry has it
+    std::size_t owner;
+    TriangleMesh mesh;
+    bool is_box;
+    Box box;  ///< about it, and in 2-D without ends along y
+  };
+  bool contains(const Solid& solid, const Vector3d& point) const;
+  std::vector<char> open_now() const;
+
+  const RigidWorld& world_;
   double interval_ = 0;  ///< m between points
   std::vector<Line> lines_;
-  std::vector<bool> open_;  ///< of each point: not inside a body
+  std::vector<Vector3d> places_;
+  std::vector<char> open_;  ///< of each point: not inside a fixed body
+  std::vector<Solid> moving_;
   std::unique_ptr<PointSet> points_;
 };
 

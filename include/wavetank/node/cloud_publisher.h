@@ -23,8 +23,8 @@ class CloudPublisher {
   CloudPublisher(const CloudPublisher&) = delete;
   CloudPublisher& operator=(const CloudPublisher&) = delete;
 
-  /// To be called often by the solver's thread: takes a cloud from the simulation when one is due.
-  void offer(const Simulation& simulation);
+  /// To be called often by the solver's thread: takes a cloud from the simulation when one is due, and says whether it did.
+  bool offer(const Simulation& simulation);
 
  private:
   struct Clouds {

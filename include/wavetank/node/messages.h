@@ -36,6 +36,8 @@ class SampleMessages {
   /// On body `index` (0 the tank), in its frame and about that frame's origin.
   geometry_msgs::WrenchStamped wrench(std::size_t index, Part part, const WrenchSample& sample, const StampClock& clock) const;
 
+  const PoseMessages& poses() const { return poses_; }
+
   /// Calls sink(topic, stamp, message) for every message of the samples, each exactly once and in order of time on its topic.
   template <class Sink>
   void emit(const Samples& samples, const StampClock& clock, Sink&& sink) const {

@@ -13,6 +13,12 @@
 
 namespace wavetank {
 
+/// Whether a joint has a position to tell of; a fixed one, a ball and a six_dof have none.
+bool has_position(const JointCase& joint);
+
+/// Where everything is at present, whether or not a sample is due.
+PoseSample present_poses(const RigidWorld& bodies, double time);
+
 /// Turns samples of the poses of whatever moves into messages. Free of the ROS graph.
 class PoseMessages {
  public:
@@ -22,7 +28,7 @@ class PoseMessages {
   nav_msgs::Odometry odometry(std::size_t owner, const PoseSample& sample, const StampClock& clock) const;
   /// Every moving frame in its parent.
   tf2_msgs::TFMessage transforms(const PoseSample& sample, const StampClock& clock) const;
-  /// In the case's order.
+  /// Of the joints that have a position, in the case's order.
   sensor_msgs::JointState joint_states(const PoseSample& sample, const StampClock& clock) const;
 
   /// Calls sink(topic, stamp, message) for every message of the sample.
@@ -44,7 +50,8 @@ class PoseMessages {
   std::vector<BodyFrame> frames_;
   std::vector<std::size_t> moving_;  ///< owners
   std::vector<std::string> topics_;  ///< of their odometry
-  std::vector<std::string> joints_;  ///< names
+  std::vector<std::size_t> joints_;  ///< those that have a position
+  std::vector<std::string> joint_names_;
 };
 
 }  // namespace wavetank

@@ -21,6 +21,7 @@ struct LoopStatus {
   LoopPhase phase = LoopPhase::starting;
   bool paused = false;
   double start_progress = 0;  ///< 0…1
+  bool has_started = false;   ///< the case is laid out, and a snapshot restored: what fails from then on is the simulation
   std::string failure;        ///< why the phase is failed
   SolverState solver;
   EnergySample energies;

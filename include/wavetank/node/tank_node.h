@@ -29,9 +29,10 @@ class TankNode {
   TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup);
   ~TankNode();
 
-  /// Whether the process should end: some seconds after a failure, or at the end of the duration if so asked.
+  /// Whether the process should end: when it cannot start, some seconds after a failure, or at the end of the duration if so asked.
   bool wants_to_exit() const { return wants_to_exit_; }
-  /// Stops the simulation and closes the bag; the exit code of the process: 0, or 3 after a failure of the simulation or of the bag.
+  /// Stops the simulation and closes the bag; the exit code of the process: 0, 2 if the case could not be laid out or its snapshot not be
+  /// restored, or 3 after a failure of the simulation or of the bag.
   int finish();
 
  private:
@@ -40,9 +41,11 @@ class TankNode {
   void advertise_services();
   LoopHooks make_hooks();
   void started(const Simulation& simulation);
+  void publish_present_poses(const Simulation& simulation);
   void stepped(const Simulation& simulation, const Samples& samples);
   void idle(const Simulation& simulation);
   void ended(const LoopStatus& status);
+  void publish_samples(const Samples& samples);
   template <class Message>
   void publish_sample(const std::string& topic, const ros::Time& stamp, const Message& message);
   void send(const std::string& topic, const tf2_msgs::TFMessage& message);

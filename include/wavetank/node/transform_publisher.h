@@ -14,6 +14,8 @@ class TransformPublisher {
  public:
   explicit TransformPublisher(ros::NodeHandle& handle);
   void publish(const tf2_msgs::TFMessage& transforms);
+  /// The same for something of their stamp that is no sample; only if that stamp has not been reached yet.
+  void publish_between_samples(const tf2_msgs::TFMessage& transforms);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -22,6 +24,7 @@ class TransformPublisher {
   std::mutex mutex_;
   tf2_msgs::TFMessage last_;
   Clock::time_point published_at_;
+  bool is_flowing_ = false;  ///< there was no standstill before the last ones
   ros::Publisher publisher_;
 };
 

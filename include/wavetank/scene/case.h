@@ -152,6 +152,7 @@ struct RigidCase {
   double restitution = 0.0;                      ///< of two in contact, the greater
   CollisionShape collision = CollisionShape::automatic;
   std::vector<MeshSource> collision_parts;
+  bool water_film = true;  ///< of a free body: water presses on what of it lies on a wall or nearly so; else it is sealed there
   PrescribedCase prescribed;
   CommandCase command;
   std::vector<ForceCase> forces;
@@ -258,7 +259,8 @@ struct NumericsCase {
 
 struct PressureProbeCase {
   std::string name;
-  Vector3d position = Vector3d::Zero();  ///< m
+  Vector3d position = Vector3d::Zero();  ///< m, at the start
+  std::string body;                      ///< that it is fixed to; empty = the tank
 };
 
 struct WaveGaugeCase {

@@ -56,11 +56,13 @@ class PointSet {
   virtual ~PointSet() = default;
 };
 
+/// In the frame that the fluid is solved in.
 struct FluidEnergies {
   double kinetic = 0;      ///< J (2-D: J/m)
-  double potential = 0;    ///< J, about z of the tank's floor
+  double potential = 0;    ///< J, under the case's gravity, about z of the tank's floor
   double compression = 0;  ///< J
   double mass = 0;         ///< kg (2-D: kg/m)
+  Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
 };
 
 /// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.
@@ -84,6 +86,12 @@ struct FrameMotion {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();                ///< m, in the tank's coordinates: what the two others are about
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();      ///< rad/s
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< rad/s²
+
+  /// What acts as gravity on what rests in the frame at a place of it, m/s².
+  Eigen::Vector3d gravity_at(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d arm = place - origin;
+    return gravity - angular_acceleration.cross(arm) - angular_velocity.cross(angular_velocity.cross(arm));
+  }
 };
 
 struct WallMotions {

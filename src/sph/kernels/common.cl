@@ -67,6 +67,11 @@ typedef struct {
 #define REGION_COUNT 8
 #define WRENCH_COUNT 12       // pressure force, viscous force, pressure torque, viscous torque
 
+// Of how many owners of walls the guard tells apart what they take from one particle.
+#define GUARD_OWNERS 2
+#define NO_OWNER (-1)
+#define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
+
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
 INLINE real kernel_value(__constant const parameters_t* p, real distance) {
   const real q = distance * p->inverse_smoothing;

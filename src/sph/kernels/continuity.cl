@@ -15,6 +15,10 @@ typedef struct {
   real u, v, w, compression;
 #if DIFFUSION_FOURTAKAS
   vector_t hydrostatic;  // gradient of the compression
+#if MOVING_FRAME
+  vector_t spin;
+  real half_inverse;  // ρ/(2K)
+#endif
 #endif
   real divergence, diffusion;
   real shepard;
@@ -42,6 +46,13 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
   real explained = a->hydrostatic.x * rx + a->hydrostatic.z * rz;
 #if DIMENSIONS == 3
   explained += a->hydrostatic.y * ry;
+#endif
+#if MOVING_FRAME
+  // up to the mean of gravity at either end, so that what one gains the other loses: centrifugal and Coriolis' forces differ between them
+  const vector_t apart = make_vector(rx, ry, rz);
+  const vector_t around = cross3(a->spin, apart);
+  const vector_t carried = cross3(a->spin, make_vector(velocity.x - a->u, DIMENSIONS == 3 ? velocity.y - a->v : R(0.0), velocity.z - a->w));
+  explained += a->half_inverse * (dot3(around, around) - R(2.0) * dot3(carried, apart));
 #endif
   a->diffusion += R(2.0) * slope_volume * (difference - explained);
 #elif DIFFUSION_ANTUONO
@@ -93,6 +104,8 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   const vector_t gravity = gravity_at(p, &walls, a.near.x, a.near.y, a.near.z, make_vector(a.u, a.v, a.w));
   const real inverse = p->density / p->bulk_modulus;
   a.hydrostatic = make_vector(gravity.x * inverse, gravity.y * inverse, gravity.z * inverse);
+  a.spin = motion_vector(walls.motions, 1);
+  a.half_inverse = R(0.5) * inverse;
 #else
   a.hydrostatic = make_vector(p->hydrostatic_x, p->hydrostatic_y, p->hydrostatic_z);
 #endif

@@ -1,17 +1,33 @@
 // Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
 // relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
-// open tank, where there is no wall: as if the tank's walls went on upwards from the rim, and at the sides of the tank's bounding box.
+// open tank, where there is no wall: as if the tank's walls went on upwards from the rim, and at the sides of the tank's bounding box. Where bodies are
+// free (GUARD_IMPULSES), what each particle loses is kept for them, by the walls' owners.
 #include "walls.cl"
 #define SWEEP_WALLS
 
 typedef struct {
   const walls_t* walls;
   vector_t from;  // where it was at the start of the step
+  real step;
   real x, y, z;  // how far it was set back
   real u, v, w;
   int hits;
   bool above_rim;
+#if GUARD_IMPULSES
+  int owners[GUARD_OWNERS];
+  vector_t lost[GUARD_OWNERS];  // of its velocity, to each
+#endif
 } sweep_t;
+
+#if GUARD_IMPULSES
+// A particle that walls of more owners hold at once gives what is beyond to the last of them.
+INLINE void lose(sweep_t* a, int owner, vector_t velocity) {
+  int slot = 0;
+  while (slot + 1 < GUARD_OWNERS && a->owners[slot] != NO_OWNER && a->owners[slot] != owner) ++slot;
+  if (a->owners[slot] == NO_OWNER) a->owners[slot] = owner;
+  a->lost[slot] = make_vector(a->lost[slot].x + velocity.x, a->lost[slot].y + velocity.y, a->lost[slot].z + velocity.z);
+}
+#endif
 
 INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
@@ -24,8 +40,12 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   }
 #if THIN_WALLS
   const bool thin = WALL_FIELD(a->walls, WALL_THIN, s) > R(0.5);
-  // a thin wall holds what was on its own side
-  if (thin && touch_wall(p, a->walls, s, a->from.x, a->from.y, a->from.z).distance < R(0.0)) return;
+  if (thin) {
+    // it holds what was on its own side; where it was then, seen from where it is now
+    const vector_t carried = wall_velocity(a->walls, s, c.normal, a->from.x, a->from.y, a->from.z);
+    const contact_t before = touch_wall(p, a->walls, s, a->from.x + a->step * carried.x, a->from.y + a->step * carried.y, a->from.z + a->step * carried.z);
+    if (before.distance < R(0.0)) return;
+  }
   const real least = thin ? R(1.0e-3) * p->spacing : R(0.0);  // never in its very plane, from where both sides can be seen
 #else
   const real least = R(0.0);
@@ -40,6 +60,9 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
     a->v -= approach * c.normal.y;
     a->w -= approach * c.normal.z;
     a->hits += 1;
+#if GUARD_IMPULSES
+    lose(a, (int)WALL_FIELD(a->walls, WALL_OWNER, s), make_vector(approach * c.normal.x, approach * c.normal.y, approach * c.normal.z));
+#endif
   }
   if (c.distance < least) {
     const real back = c.distance - least;
@@ -66,10 +89,13 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
 
 __kernel void guard(__constant const parameters_t* p, int count, __global const int* cell_start, __global real* state, int stride, WALL_ARGUMENTS,
                     __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
-                    __global int* hits) {
+                    __global int* hits, __global int* takers, __global real* lost) {
   const int i = get_global_id(0);
   if (i >= count) return;
   hits[i] = 0;
+#if GUARD_IMPULSES
+  for (int slot = 0; slot < GUARD_OWNERS; ++slot) takers[slot * stride + i] = NO_OWNER;
+#endif
   const bool above_rim = state[FIELD_Z * stride + i] > p->rim_z;
   if (above_rim) {
     const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
@@ -95,7 +121,8 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   const walls_t walls = WALLS_OF_ARGUMENTS;
   a.walls = &walls;
   // the middle of the step is half a step of the first velocity away from its start
-  const real back = -R(0.5) * time_step[0];
+  a.step = time_step[0];
+  const real back = -R(0.5) * a.step;
   a.from = make_vector(half_state[FIELD_X * stride + i] + back * half_state[FIELD_U * stride + i],
                        half_state[FIELD_Y * stride + i] + back * half_state[FIELD_V * stride + i],
                        half_state[FIELD_Z * stride + i] + back * half_state[FIELD_W * stride + i]);
@@ -103,6 +130,9 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];
   const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
+#if GUARD_IMPULSES
+  for (int slot = 0; slot < GUARD_OWNERS; ++slot) a.owners[slot] = NO_OWNER;
+#endif
   if (near) sweep_walls(&a, p, &walls, images, x, y, z);
   a.above_rim = above_rim;
   if (above_rim) sweep_walls(&a, p, &walls, images, x, y, p->rim_z - R(0.25) * p->spacing);
@@ -114,5 +144,13 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
 #if DIMENSIONS == 3
   state[FIELD_V * stride + i] = a.v;
   state[FIELD_Y * stride + i] += a.y;
+#endif
+#if GUARD_IMPULSES
+  for (int slot = 0; slot < GUARD_OWNERS; ++slot) {
+    takers[slot * stride + i] = a.owners[slot];
+    lost[3 * slot * stride + i] = a.lost[slot].x;
+    lost[(3 * slot + 1) * stride + i] = a.lost[slot].y;
+    lost[(3 * slot + 2) * stride + i] = a.lost[slot].z;
+  }
 #endif
 }

@@ -100,7 +100,7 @@ INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) { a->fitted
 // ∫ (p_i + p) W dS with the fitted plane for p. Where the wall accelerates, what is taken out before the fit and added after it is hydrostatics in its frame.
 INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
 #if MOVING_WALLS
-  if (!a->fitting) return R(0.0);  // no wall is near, and there is no fit
+  if (!a->fitting || c->weight == R(0.0)) return R(0.0);  // no wall is near, and there may be no fit
   const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (a->gravity.x - gravity.x), p->density * (a->gravity.y - gravity.y),
                                                        p->density * (a->gravity.z - gravity.z)));
 #else

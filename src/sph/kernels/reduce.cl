@@ -100,7 +100,8 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_POTENTIAL 1    // about the grid's origin
 #define ENERGY_COMPRESSION 2
 #define ENERGY_MASS 3
-#define ENERGY_COUNT 4
+#define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
+#define ENERGY_COUNT 7
 
 INLINE void add_compensated(real value, real* sum, real* rest) {
   const real wanted = value - *rest;
@@ -112,8 +113,8 @@ INLINE void add_compensated(real value, real* sum, real* rest) {
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, int stride, __global real* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
-  real sums[ENERGY_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0)};
-  real rests[ENERGY_COUNT] = {R(0.0), R(0.0), R(0.0), R(0.0)};
+  real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
+  for (int k = 0; k < ENERGY_COUNT; ++k) sums[k] = rests[k] = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     const real mass = state[FIELD_MASS * stride + i];
     const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
@@ -124,6 +125,8 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
     // ∫ p/ρ² dρ to second order in s
     add_compensated(R(0.5) * p->sound_speed * p->sound_speed * mass * s * s, &sums[ENERGY_COMPRESSION], &rests[ENERGY_COMPRESSION]);
     add_compensated(mass, &sums[ENERGY_MASS], &rests[ENERGY_MASS]);
+    for (int axis = 0; axis < 3; ++axis)
+      add_compensated(mass * state[(FIELD_X + axis) * stride + i], &sums[ENERGY_MOMENT + axis], &rests[ENERGY_MOMENT + axis]);
   }
   for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
 }
@@ -148,6 +151,42 @@ __kernel void packing_total(int count, __global const real* rates, int stride, _
   }
   total[0] = sqrt(sum / (real)count);
   total[1] = greatest;
+}
+
+// Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner: N·s, N·m·s.
+__kernel void guard_chunks(int count, __global const real* state, int stride, __global const int* guard_hits, __global const int* takers,
+                           __global const real* lost, int owners, __global const real* centres, __global real* impulses) {
+  const int chunk = get_global_id(0);
+  if (chunk * REDUCE_CHUNK >= count) return;
+  __global real* sums = impulses + chunk * owners * IMPULSE_COUNT;
+  for (int k = 0; k < owners * IMPULSE_COUNT; ++k) sums[k] = R(0.0);
+  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+    if (guard_hits[i] == 0) continue;
+    const real mass = state[FIELD_MASS * stride + i];
+    for (int slot = 0; slot < GUARD_OWNERS; ++slot) {
+      const int owner = takers[slot * stride + i];
+      if (owner == NO_OWNER) continue;
+      __global const real* velocity = lost + 3 * slot * stride;
+      const real px = mass * velocity[i], py = mass * velocity[stride + i], pz = mass * velocity[2 * stride + i];
+      const real rx = state[FIELD_X * stride + i] - centres[3 * owner], ry = state[FIELD_Y * stride + i] - centres[3 * owner + 1],
+                 rz = state[FIELD_Z * stride + i] - centres[3 * owner + 2];
+      __global real* own = sums + owner * IMPULSE_COUNT;
+      own[0] += px;
+      own[1] += py;
+      own[2] += pz;
+      own[3] += ry * pz - rz * py;
+      own[4] += rz * px - rx * pz;
+      own[5] += rx * py - ry * px;
+    }
+  }
+}
+
+__kernel void guard_totals(int values, int chunks, __global const real* impulses, __global real* totals) {
+  const int k = get_global_id(0);
+  if (k >= values) return;
+  real sum = R(0.0), rest = R(0.0);
+  for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(impulses[chunk * values + k], &sum, &rest);
+  totals[k] = sum;
 }
 
 // Force and torque on each owner of walls, from what the runs of cells of its region do to it.

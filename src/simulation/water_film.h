@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "wavetank/rigid/rigid_world.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// The water between a free body and a wall that it lies on or nearly touches, where the gap is too narrow for particles.
+///
+/// A slow film in a gap of even width obeys Reynolds' equation, ∇²(p − ρ g·x) = 0 along the gap, with the fluid's pressure around its rim.
+/// So here: the elements of a body's surface that a wall covers have the pressure that is harmonic, but for the water's weight, between
+/// those of the open elements about them, as far as particles nearby do not press on them already. Without it a light body that stands
+/// flush on the floor would never be lifted. The film fills at once and thins without resistance; it presses on both sides of the gap
+/// alike.
+class WaterFilm {
+ public:
+  /// `world` is looked at throughout.
+  WaterFilm(const RigidWorld& world, const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
+
+  /// The films' loads in the present state, one an owner about its reference point, in the tank's axes; `frame`: of a tank that moves. All
+  /// zero, and nothing asked of the fluid, where no free body is near a wall.
+  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame) const;
+
+ private:
+  struct Surface {  ///< an owner's walls, in the case's coordinates at its start
+    std::vector<Facet> facets;
+    std::vector<Eigen::AlignedBox3d> boxes;  ///< of each facet
+    Eigen::AlignedBox3d box;
+    std::vector<WallElement> elements;  ///< of a free body; so are the neighbours of each
+    std::vector<std::vector<int>> beside;
+  };
+  struct Cover {
+    std::size_t owner = 0;  ///< of the wall across the gap
+    double share = 0;       ///< of the film: 0 where the gap is open, 1 where no particle gets in
+  };
+
+  std::vector<Cover> covers(std::size_t body) const;
+  void cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const;
+  std::vector<double> film_pressures(const Surface& surface, const std::vector<Cover>& covers, const std::vector<PointValue>& fluid,
+                                     const Vector3d& weight) const;
+  std::vector<PointValue> read(Solver& fluid, const Surface& surface, const std::vector<Cover>& covers,
+                               const Eigen::Isometry3d& to_tank) const;
+  void add_loads(Solver& fluid, const std::optional<FrameMotion>& frame, std::size_t body, std::vector<RigidLoad>& loads) const;
+  Eigen::Isometry3d pose(std::size_t owner) const;
+
+  const RigidWorld& world_;
+  int dimensions_;
+  double spacing_;
+  double density_;
+  Vector3d gravity_;
+  std::vector<Surface> surfaces_;
+};
+
+}  // namespace wavetank
