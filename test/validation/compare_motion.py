@@ -79,6 +79,14 @@ def impulse(record, begin, end):
     return float(numpy.sum(0.5 * (values[1:] + values[:-1]) * numpy.diff(times)))
 
 
+def running_mean(record, window):
+    """Over `window` seconds about each of the record's own times that lie half of it from its ends."""
+    sums = numpy.concatenate([[0.0], numpy.cumsum(0.5 * (record.values[1:] + record.values[:-1]) * numpy.diff(record.times))])
+    times = record.between(record.times[0] + 0.5 * window, record.times[-1] - 0.5 * window).times
+    until = Record(record.times, sums)
+    return Record(times, (until.at(times + 0.5 * window) - until.at(times - 0.5 * window)) / window)
+
+
 def peak(record, about, within):
     """Time and height of the greatest value not farther than `within` from `about`; nan where the record has none there."""
     part = record.between(about - within, about + within)

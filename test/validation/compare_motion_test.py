@@ -27,6 +27,7 @@ from compare_motion import (  # noqa: E402
     read_record,
     relative_error,
     rms_error,
+    running_mean,
     rotated,
     volume_of,
 )
@@ -38,6 +39,14 @@ ROUNDING = 1e-12
 
 
 class Records(unittest.TestCase):
+    def test_running_mean_of_a_line_is_the_line_and_of_a_blow_is_spread(self):
+        times = numpy.linspace(0, 1, 101)
+        line = running_mean(Record(times, 3 * times), 0.1)
+        numpy.testing.assert_allclose(line.values, 3 * line.times, atol=1e-12)
+        self.assertAlmostEqual(line.times[0], 0.05)
+        blow = running_mean(Record(times, times == 0.5), 0.1)
+        self.assertAlmostEqual(blow.values.max(), 0.1)  # its area, 0.01 s, over the window
+
     def test_sorts_and_takes_the_mean_of_times_given_twice(self):
         record = Record([2, 1, 1, 3], [5, 1, 3, 7])
         numpy.testing.assert_array_equal(record.times, [1, 2, 3])

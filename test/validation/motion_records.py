@@ -14,6 +14,8 @@ import compare_motion as compare  # noqa: E402
 
 IMPACTS = (2.375, 4.067, 5.671, 7.303)  # s, SPHERIC 10's pressure peaks; the first three are the test, for the fourth depends on what they left
 SEARCH = 0.3  # s on either side of a recorded peak, less than half of the roll's period
+BLOW = 0.01  # s: the greatest mean over so long tells an impact's time without the drops that fly ahead of it
+DRY = (0.6, 0.7)  # s after an impact, when the sensor is in the air again and shows by how much its zero has drifted
 IMPACT = (0.05, 0.2)  # s before and after its peak over which an impact's impulse is taken: the peak and most of the push that follows
 WAVES_AT_BOX = (6.3, 8.1)  # s, when Hadzic's box is moved by the waves and was filmed
 
@@ -34,10 +36,17 @@ def spheric10(records, bag, table):
             continue
         late = found - expected
         table.add("impact %d, time of peak" % number, "%.3f s" % expected, "%.3f s" % found, "%+.3f s" % late, "0.03 s", abs(late) <= 0.03 if tested else None)
+        blow, our_blow = (compare.peak(compare.running_mean(record, BLOW), about, SEARCH)[0] for record in (reference, ours))
+        table.add("impact %d, time of the greatest mean over 10 ms" % number, "%.3f s" % blow, "%.3f s" % our_blow, "%+.3f s" % (our_blow - blow))
         whole = compare.impulse(reference, expected - IMPACT[0], expected + IMPACT[1])
         our_whole = compare.impulse(ours, found - IMPACT[0], found + IMPACT[1])
         error = our_whole / whole - 1
         table.add("impact %d, impulse" % number, "%.0f Pa s" % whole, "%.0f Pa s" % our_whole, percent(error), "30 %", abs(error) <= 0.3 if tested else None)
+        if reference.times[-1] >= expected + DRY[1]:
+            level = whole - IMPACT[1] * compare.mean(reference, expected + DRY[0], expected + DRY[1])
+            table.add(
+                "impact %d, impulse over the sensor's zero afterwards" % number, "%.0f Pa s" % level, "%.0f Pa s" % our_whole, percent(our_whole / level - 1)
+            )  # fmt: skip
         table.add("impact %d, peak" % number, "%.0f Pa" % height, "%.0f Pa" % our_height, percent(our_height / height - 1))
     curves = [("measured", reference, "k"), ("wavetank", ours, "C0")]
     end = min(ours.times[-1], reference.times[-1])
