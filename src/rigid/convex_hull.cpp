@@ -207,7 +207,7 @@ void find_edges(ConvexHull& hull) {
 }
 
 void find_volume(ConvexHull& hull, const std::vector<Triangle>& triangles, const std::vector<Vector3d>& points) {
-  const Vector3d middle = points[triangles[0].corner[0]];
+  const Vector3d& middle = points[triangles[0].corner[0]];
   Vector3d moment = Vector3d::Zero();
   for (const Triangle& t : triangles) {
     if (!t.alive) continue;

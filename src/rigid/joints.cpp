@@ -65,8 +65,6 @@ Joint::Joint(const JointCase& joint, const JointEnd& child, const JointEnd& pare
       lock(moving + turning);
       break;
     case JointType::hinge:
-      lock(moving + turning - 1);
-      break;
     case JointType::slider:
       lock(moving + turning - 1);
       break;

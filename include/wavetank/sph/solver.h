@@ -58,10 +58,10 @@ class PointSet {
 
 /// In the frame that the fluid is solved in.
 struct FluidEnergies {
-  double kinetic = 0;      ///< J (2-D: J/m)
-  double potential = 0;    ///< J, under the case's gravity, about z of the tank's floor
-  double compression = 0;  ///< J
-  double mass = 0;         ///< kg (2-D: kg/m)
+  double kinetic = 0;                                     ///< J (2-D: J/m)
+  double potential = 0;                                   ///< J, under the case's gravity, about z of the tank's floor
+  double compression = 0;                                 ///< J
+  double mass = 0;                                        ///< kg (2-D: kg/m)
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
 };
 
