@@ -31,11 +31,11 @@ Memory::State::State(std::shared_ptr<Device::State> on, std::size_t asked) : dev
     throw Error("a buffer of " + size_text(asked) + " was asked of the device " + info.name + ", which allows at most " +
                 size_text(info.max_allocation) + " in one buffer and has " + size_text(info.global_memory) + " in all");
   bytes = std::max<std::size_t>(1, (asked + fill_unit - 1) / fill_unit) * fill_unit;
-  const std::string doing =
-      "allocating " + size_text(bytes) + " beside " + size_text(device->allocated) + " in use, of " + size_text(info.global_memory);
   cl_int code = CL_SUCCESS;
   handle = clCreateBuffer(device->context, CL_MEM_READ_WRITE, bytes, nullptr, &code);
-  check(code, "clCreateBuffer", info, doing);
+  check(code, "clCreateBuffer", info, [&] {
+    return "allocating " + size_text(bytes) + " beside " + size_text(device->allocated) + " in use, of " + size_text(info.global_memory);
+  });
   try {
     fill_zero();  // drivers that allocate late find out here that there is no room
   } catch (const Error&) {
@@ -53,7 +53,7 @@ Memory::State::~State() {
 void Memory::State::fill_zero() {
   const cl_uint zeros[fill_unit / sizeof(cl_uint)] = {};
   check(clEnqueueFillBuffer(device->queue, handle, zeros, fill_unit, 0, bytes, 0, nullptr, nullptr), "clEnqueueFillBuffer", device->info,
-        "zeroing a buffer of " + size_text(bytes));
+        [&] { return "zeroing a buffer of " + size_text(bytes); });
 }
 
 Memory::Memory(const Device& device, std::size_t bytes) : state_(std::make_shared<State>(device.state(), bytes)), bytes_(bytes) {}
@@ -71,17 +71,13 @@ void check_range(std::size_t bytes, std::size_t offset, std::size_t available, c
 void Memory::write(const void* from, std::size_t bytes, std::size_t offset) {
   check_range(bytes, offset, bytes_, "written");
   if (bytes == 0) return;
-  const Device::State& device = *state_->device;
-  check(clEnqueueWriteBuffer(device.queue, state_->handle, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr), "clEnqueueWriteBuffer",
-        device.info, "writing " + size_text(bytes) + " to a buffer");
+  state_->device->write(state_->handle, from, bytes, offset);
 }
 
 void Memory::read(void* to, std::size_t bytes, std::size_t offset) const {
   check_range(bytes, offset, bytes_, "read");
   if (bytes == 0) return;
-  const Device::State& device = *state_->device;
-  check(clEnqueueReadBuffer(device.queue, state_->handle, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr), "clEnqueueReadBuffer",
-        device.info, "finishing what was queued and reading " + size_text(bytes) + " from a buffer");
+  state_->device->read(state_->handle, to, bytes, offset);
 }
 
 void Memory::fill_zero() {
@@ -94,7 +90,7 @@ void Memory::copy_from(const Memory& other, std::size_t bytes) {
   if (bytes == 0 || state_ == other.state_) return;
   const Device::State& device = *state_->device;
   check(clEnqueueCopyBuffer(device.queue, other.state_->handle, state_->handle, 0, 0, bytes, 0, nullptr, nullptr), "clEnqueueCopyBuffer",
-        device.info, "copying " + size_text(bytes) + " between buffers");
+        device.info, [&] { return "copying " + size_text(bytes) + " between buffers"; });
 }
 
 void* Memory::handle() const { return state_ ? state_->handle : nullptr; }

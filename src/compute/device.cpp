@@ -11,6 +11,9 @@ namespace {
 /// Launches whose events may wait before those that have run are counted and freed.
 constexpr std::size_t pending_launches = 1000;
 
+/// Bytes of queued writes that are copied: what is more waits for the queue instead.
+constexpr std::size_t staging_size = std::size_t(1) << 20;
+
 std::string platform_version_of(cl_device_id id) {
   cl_platform_id platform = nullptr;
   char text[256] = "";
@@ -41,6 +44,31 @@ Device::State::~State() {
 }
 
 void Device::State::finish() const { check(clFinish(queue), "clFinish", info, "finishing what was queued"); }
+
+/// A small write does not wait: it would keep the device idle until the host hears of it and has queued the next kernel.
+void Device::State::write(cl_mem to, const void* from, std::size_t bytes, std::size_t offset) {
+  const bool waits = bytes > staging_size - std::min(staging_size, staged_bytes_);
+  if (!waits) {
+    const char* begin = static_cast<const char*>(from);
+    from = staged_.emplace_back(begin, begin + bytes).data();
+    staged_bytes_ += bytes;
+  }
+  check(clEnqueueWriteBuffer(queue, to, waits ? CL_TRUE : CL_FALSE, offset, bytes, from, 0, nullptr, nullptr), "clEnqueueWriteBuffer", info,
+        [&] { return "writing " + size_text(bytes) + " to a buffer"; });
+  if (waits) forget_staged();
+}
+
+void Device::State::read(cl_mem from, void* to, std::size_t bytes, std::size_t offset) {
+  check(clEnqueueReadBuffer(queue, from, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr), "clEnqueueReadBuffer", info,
+        [&] { return "finishing what was queued and reading " + size_text(bytes) + " from a buffer"; });
+  forget_staged();
+}
+
+/// The queue is in order: what was written before has been written.
+void Device::State::forget_staged() {
+  staged_.clear();
+  staged_bytes_ = 0;
+}
 
 void Device::State::add_launch(const std::string& kernel, cl_event event) {
   bool full = false;

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "opencl_call.h"
 #include "wavetank/compute/device.h"
@@ -22,6 +23,10 @@ struct Device::State {
   State& operator=(const State&) = delete;
 
   void finish() const;
+  /// Writes in the queue's order, and returns when `from` may change.
+  void write(cl_mem to, const void* from, std::size_t bytes, std::size_t offset);
+  /// Waits for all that was queued before, too.
+  void read(cl_mem from, void* to, std::size_t bytes, std::size_t offset);
   /// Takes over the event of one launch, to be counted once it has run.
   void add_launch(const std::string& kernel, cl_event event);
   /// Counts the launches that have run; with `wait`, all of them.
@@ -45,6 +50,10 @@ struct Device::State {
 
  private:
   void count_front();
+  void forget_staged();
+
+  std::deque<std::vector<char>> staged_;  ///< copies of what small writes have queued
+  std::size_t staged_bytes_ = 0;
 };
 
 }  // namespace wavetank::compute

@@ -17,7 +17,7 @@ std::string argument_text(unsigned count) { return std::to_string(count) + (coun
 Kernel::State::State(std::shared_ptr<Program::State> of, const std::string& kernel_name) : program(std::move(of)), name(kernel_name) {
   cl_int code = CL_SUCCESS;
   handle = clCreateKernel(program->handle, name.c_str(), &code);
-  check(code, "clCreateKernel", info(), "making the kernel " + name);
+  check(code, "clCreateKernel", info(), [&] { return "making the kernel " + name; });
   clGetKernelInfo(handle, CL_KERNEL_NUM_ARGS, sizeof argument_count, &argument_count, nullptr);
   const cl_device_id device = program->device->id;
   std::size_t required[3] = {0, 0, 0};
@@ -42,7 +42,7 @@ void Kernel::State::run(std::size_t items, std::size_t group) const {
   Device::State& device = *program->device;
   cl_event event = nullptr;
   check(clEnqueueNDRangeKernel(device.queue, handle, 1, nullptr, &items, &group, 0, nullptr, device.timing ? &event : nullptr),
-        "clEnqueueNDRangeKernel", info(), "running " + name);
+        "clEnqueueNDRangeKernel", info(), [&] { return "running " + name; });
   if (event != nullptr) device.add_launch(name, event);
 }
 
@@ -58,10 +58,11 @@ void Kernel::set_bytes(unsigned index, const void* bytes, std::size_t size) cons
   if (!state_) throw Error("a kernel was launched that belongs to no program");
   if (index >= state_->argument_count) return;  // the count is checked, and said, once all are known
   const cl_int code = clSetKernelArg(state_->handle, index, size, bytes);
+  if (code == CL_SUCCESS) return;
   const std::string argument = "argument " + std::to_string(index + 1) + " of the kernel " + state_->name;
   if (code == CL_INVALID_ARG_SIZE || code == CL_INVALID_MEM_OBJECT || code == CL_INVALID_ARG_VALUE)
     throw Error(argument + " has another type than was given (" + std::to_string(size) + " bytes; " + error_name(code) + ")");
-  check(code, "clSetKernelArg", state_->info(), "setting " + argument);
+  fail(code, "clSetKernelArg", state_->info(), "setting " + argument);
 }
 
 void Kernel::enqueue(std::size_t items, unsigned argument_count) const {

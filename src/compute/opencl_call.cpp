@@ -75,8 +75,7 @@ std::string error_name(cl_int code) {
   return "OpenCL error " + std::to_string(code);
 }
 
-void check(cl_int code, const char* call, const DeviceInfo& device, const std::string& doing) {
-  if (code == CL_SUCCESS) return;
+void fail(cl_int code, const char* call, const DeviceInfo& device, const std::string& doing) {
   const std::string reason = std::string(" (") + call + ": " + error_name(code) + ")";
   if (means_lost(code)) throw Error("the device " + device.name + " was lost or ran out of resources while " + doing + reason);
   throw Error("the device " + device.name + " failed while " + doing + reason);

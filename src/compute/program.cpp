@@ -78,13 +78,13 @@ void Program::State::build_from_source(const SourceFiles& files, const std::stri
   const std::size_t size = source.size();
   cl_int code = CL_SUCCESS;
   handle = clCreateProgramWithSource(device->context, 1, &text, &size, &code);
-  check(code, "clCreateProgramWithSource", info, "reading " + main);
+  check(code, "clCreateProgramWithSource", info, [&] { return "reading " + main; });
   code = clBuildProgram(handle, 1, &device->id, options.c_str(), nullptr, nullptr);
   if (code == CL_SUCCESS) return;
   const std::string log = build_log(handle, device->id);
   clReleaseProgram(handle);
   if (code == CL_INVALID_BUILD_OPTIONS) throw Error(info.name + " does not take the build options \"" + options + "\" for " + main);
-  if (code != CL_BUILD_PROGRAM_FAILURE && log.empty()) check(code, "clBuildProgram", info, "compiling " + main);
+  if (code != CL_BUILD_PROGRAM_FAILURE && log.empty()) fail(code, "clBuildProgram", info, "compiling " + main);
   throw Error("the compiler of " + info.name + " refused " + main + " with the options \"" + options +
               "\": " + explain_build_log(log, files, source));
 }

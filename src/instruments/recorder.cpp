@@ -72,7 +72,7 @@ void Recorder::add_pressures(const Case& scene, const Solver& solver) {
                           [this, any, any_rides](Solver& fluid) {
                             Values pressures;
                             if (!any) return pressures;
-                            if (any_rides) probes_ = fluid.make_points(places_of_probes());
+                            if (any_rides) probes_->set(places_of_probes());
                             for (const PointValue& value : fluid.evaluate(*probes_)) pressures.push_back(value.pressure);
                             return pressures;
                           },

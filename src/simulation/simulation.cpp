@@ -169,7 +169,7 @@ struct Simulation::Parts {
   }
 
   /// The fluid's, with those of films that particles do not resolve.
-  std::vector<WallWrench> wrenches(Solver& fluid) const {
+  std::vector<WallWrench> wrenches(Solver& fluid) {
     std::vector<WallWrench> wrenches = fluid.wrenches();
     const std::vector<RigidLoad> films = film.loads(fluid, coupling.now().frame);
     for (std::size_t o = 0; o < wrenches.size(); ++o) {
@@ -462,6 +462,10 @@ std::vector<KernelTime> Simulation::kernel_times() const {
     times.push_back({"(host) bodies, contacts, joints", parts_->step, parts_->coupling.seconds()});
   return times;
 }
+
+PairCount Simulation::count_pairs() const { return parts_->solver->count_pairs(); }
+
+std::size_t Simulation::device_memory() const { return parts_->solver->device_memory(); }
 
 Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const Layout layout = lay_out(checked, options.resolve);

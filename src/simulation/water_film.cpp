@@ -122,81 +122,92 @@ std::vector<WaterFilm::Cover> WaterFilm::covers(std::size_t body) const {
 }
 
 /// Of each element: of the open ones the fluid's, of the covered ones harmonic between those but for the weight of the water; Pa.
-std::vector<double> WaterFilm::film_pressures(const Surface& surface, const std::vector<Cover>& covers,
-                                              const std::vector<PointValue>& fluid, const Vector3d& weight) const {
+std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& weight) const {
+  const Surface& surface = surfaces_[film.body];
   const std::size_t count = surface.elements.size();
   std::vector<double> pressures(count, 0.0);
   std::vector<int> unknown(count, -1);
-  std::vector<std::size_t> film;
+  std::vector<std::size_t> covered;
   for (std::size_t e = 0; e < count; ++e) {
-    pressures[e] = std::max(fluid[e].pressure, 0.0);
-    if (covers[e].share <= 0) continue;
-    unknown[e] = static_cast<int>(film.size());
-    film.push_back(e);
+    pressures[e] = std::max(film.fluid[e].pressure, 0.0);
+    if (film.covers[e].share <= 0) continue;
+    unknown[e] = static_cast<int>(covered.size());
+    covered.push_back(e);
   }
   std::vector<Eigen::Triplet<double>> matrix;
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(film.size()));
-  for (std::size_t k = 0; k < film.size(); ++k) {
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(covered.size()));
+  for (std::size_t k = 0; k < covered.size(); ++k) {
     const int row = static_cast<int>(k);
     double sum = 1e-9;  // a film without a rim is dry
-    for (const int other : surface.beside[film[k]]) {
-      const Vector3d way = surface.elements[film[k]].centre - surface.elements[other].centre;
+    for (const int other : surface.beside[covered[k]]) {
+      const Vector3d way = surface.elements[covered[k]].centre - surface.elements[other].centre;
       const double conductance = spacing_ / way.norm();
-      const bool covered = unknown[other] >= 0;
+      const bool in_film = unknown[other] >= 0;
       sum += conductance;
-      if (covered)
+      if (in_film)
         matrix.emplace_back(row, unknown[other], -conductance);
       else
         right[row] += conductance * pressures[other];
-      if (covered || pressures[other] > 0) right[row] += conductance * weight.dot(way);  // no water, no head
+      if (in_film || pressures[other] > 0) right[row] += conductance * weight.dot(way);  // no water, no head
     }
     matrix.emplace_back(row, row, sum);
   }
   Eigen::SparseMatrix<double> laplacian(right.size(), right.size());
   laplacian.setFromTriplets(matrix.begin(), matrix.end());
   const Eigen::VectorXd solution = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(laplacian).solve(right);
-  for (std::size_t k = 0; k < film.size(); ++k) pressures[film[k]] = std::max(solution[static_cast<Eigen::Index>(k)], 0.0);
+  for (std::size_t k = 0; k < covered.size(); ++k) pressures[covered[k]] = std::max(solution[static_cast<Eigen::Index>(k)], 0.0);
   return pressures;
 }
 
-/// The fluid at the covered elements and those beside them; zero at the others.
-std::vector<PointValue> WaterFilm::read(Solver& fluid, const Surface& surface, const std::vector<Cover>& covers,
-                                        const Eigen::Isometry3d& to_tank) const {
-  std::vector<char> wanted(covers.size(), 0);
-  for (std::size_t e = 0; e < covers.size(); ++e) {
-    if (covers[e].share <= 0) continue;
-    wanted[e] = 1;
-    for (const int other : surface.beside[e]) wanted[other] = 1;
+std::vector<WaterFilm::Film> WaterFilm::find() const {
+  std::vector<Film> films;
+  for (std::size_t body = 1; body < surfaces_.size(); ++body) {
+    const Surface& surface = surfaces_[body];
+    if (surface.elements.empty()) continue;
+    Film film{body, pose(body), covers(body), std::vector<char>(surface.elements.size(), 0), {}};
+    for (std::size_t e = 0; e < film.covers.size(); ++e) {
+      if (film.covers[e].share <= 0) continue;
+      film.wanted[e] = 1;
+      for (const int other : surface.beside[e]) film.wanted[other] = 1;
+    }
+    if (std::find(film.wanted.begin(), film.wanted.end(), 1) != film.wanted.end()) films.push_back(std::move(film));
   }
-  std::vector<Vector3d> places;
-  for (std::size_t e = 0; e < covers.size(); ++e)
-    if (wanted[e]) places.push_back(to_tank * (surface.elements[e].centre - reading_distance * spacing_ * surface.elements[e].normal));
-  const std::vector<PointValue> found = fluid.evaluate(*fluid.make_points(places));
-  std::vector<PointValue> values(covers.size());
-  auto next = found.begin();
-  for (std::size_t e = 0; e < covers.size(); ++e)
-    if (wanted[e]) values[e] = *next++;
-  return values;
+  return films;
 }
 
-void WaterFilm::add_loads(Solver& fluid, const std::optional<FrameMotion>& frame, std::size_t body, std::vector<RigidLoad>& loads) const {
+void WaterFilm::read(Solver& fluid, std::vector<Film>& films) {
+  std::vector<Vector3d> places;
+  for (const Film& film : films) {
+    const std::vector<WallElement>& elements = surfaces_[film.body].elements;
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (film.wanted[e]) places.push_back(film.to_tank * (elements[e].centre - reading_distance * spacing_ * elements[e].normal));
+  }
+  if (points_)
+    points_->set(places);
+  else
+    points_ = fluid.make_points(places);
+  const std::vector<PointValue> found = fluid.evaluate(*points_);
+  auto next = found.begin();
+  for (Film& film : films) {
+    film.fluid.resize(film.wanted.size());
+    for (std::size_t e = 0; e < film.wanted.size(); ++e)
+      if (film.wanted[e]) film.fluid[e] = *next++;
+  }
+}
+
+void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& frame, std::vector<RigidLoad>& loads) const {
+  const std::size_t body = film.body;
   const Surface& surface = surfaces_[body];
-  const std::vector<Cover> over = covers(body);
-  if (std::none_of(over.begin(), over.end(), [](const Cover& cover) { return cover.share > 0; })) return;
-
-  const Eigen::Isometry3d to_tank = pose(body);
-  const std::vector<PointValue> values = read(fluid, surface, over, to_tank);
-  const Vector3d gravity = frame ? frame->gravity_at(to_tank * world_.reference(body)) : gravity_;
-  const std::vector<double> pressures = film_pressures(surface, over, values, density_ * (to_tank.linear().transpose() * gravity));
-
+  const Vector3d gravity = frame ? frame->gravity_at(film.to_tank * world_.reference(body)) : gravity_;
+  const std::vector<double> pressures = film_pressures(film, density_ * (film.to_tank.linear().transpose() * gravity));
   for (std::size_t e = 0; e < surface.elements.size(); ++e) {
     // of two bodies with films the first one's elements count for both
-    const std::size_t other = over[e].owner;
-    if (over[e].share <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
-    const double dry = 1.0 - std::min(values[e].filling / full_wetness, 1.0);
+    const auto& [other, share] = film.covers[e];
+    if (share <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
+    const double dry = 1.0 - std::min(film.fluid[e].filling / full_wetness, 1.0);
     const WallElement& element = surface.elements[e];
-    const Vector3d force = over[e].share * dry * pressures[e] * element.area * (to_tank.linear() * element.normal);
-    const Vector3d place = to_tank * element.centre;
+    const Vector3d force = share * dry * pressures[e] * element.area * (film.to_tank.linear() * element.normal);
+    const Vector3d place = film.to_tank * element.centre;
     const auto add = [&](std::size_t owner, const Vector3d& part) {
       loads[owner].force += part;
       loads[owner].torque += (place - pose(owner) * world_.reference(owner)).cross(part);
@@ -206,10 +217,12 @@ void WaterFilm::add_loads(Solver& fluid, const std::optional<FrameMotion>& frame
   }
 }
 
-std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame) const {
+std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame) {
   std::vector<RigidLoad> loads(surfaces_.size());
-  for (std::size_t body = 1; body < surfaces_.size(); ++body)
-    if (!surfaces_[body].elements.empty()) add_loads(fluid, frame, body, loads);
+  std::vector<Film> films = find();
+  if (films.empty()) return loads;
+  read(fluid, films);
+  for (const Film& film : films) add_loads(film, frame, loads);
   return loads;
 }
 

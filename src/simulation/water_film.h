@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,7 @@ class WaterFilm {
 
   /// The films' loads in the present state, one an owner about its reference point, in the tank's axes; `frame`: of a tank that moves. All
   /// zero, and nothing asked of the fluid, where no free body is near a wall.
-  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame) const;
+  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame);
 
  private:
   struct Surface {  ///< an owner's walls, in the case's coordinates at its start
@@ -38,13 +39,21 @@ class WaterFilm {
     double share = 0;       ///< of the film: 0 where the gap is open, 1 where no particle gets in
   };
 
+  struct Film {
+    std::size_t body = 0;
+    Eigen::Isometry3d to_tank;  ///< where the body is
+    std::vector<Cover> covers;  ///< of each element
+    std::vector<char> wanted;   ///< of each element: the fluid there is read
+    std::vector<PointValue> fluid;
+  };
+
+  std::vector<Film> find() const;
   std::vector<Cover> covers(std::size_t body) const;
   void cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const;
-  std::vector<double> film_pressures(const Surface& surface, const std::vector<Cover>& covers, const std::vector<PointValue>& fluid,
-                                     const Vector3d& weight) const;
-  std::vector<PointValue> read(Solver& fluid, const Surface& surface, const std::vector<Cover>& covers,
-                               const Eigen::Isometry3d& to_tank) const;
-  void add_loads(Solver& fluid, const std::optional<FrameMotion>& frame, std::size_t body, std::vector<RigidLoad>& loads) const;
+  /// The fluid at the covered elements and those beside them; zero at the others.
+  void read(Solver& fluid, std::vector<Film>& films);
+  std::vector<double> film_pressures(const Film& film, const Vector3d& weight) const;
+  void add_loads(const Film& film, const std::optional<FrameMotion>& frame, std::vector<RigidLoad>& loads) const;
   Eigen::Isometry3d pose(std::size_t owner) const;
 
   const RigidWorld& world_;
@@ -53,6 +62,7 @@ class WaterFilm {
   double density_;
   Vector3d gravity_;
   std::vector<Surface> surfaces_;
+  std::unique_ptr<PointSet> points_;  ///< where the fluid was read last
 };
 
 }  // namespace wavetank

@@ -6,7 +6,8 @@
 namespace wavetank {
 
 template <class Real>
-KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout, const Discretisation& d, int images) {
+KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout, const Discretisation& d, const GridShape& grid,
+                                         int images) {
   const double h = d.smoothing_length, c = d.sound_speed, pi = std::acos(-1.0);
   const double scale = d.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
   const double physical =
@@ -55,12 +56,18 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   p.cells_y = d.cells[1];
   p.cells_z = d.cells[2];
   p.cells = d.cells[0] * d.cells[1] * d.cells[2];
+  p.row_side = real(grid.row_side);
+  p.inverse_row = real(1.0 / grid.row_side);
+  p.inverse_slot = real(1.0 / grid.slot_length);
+  p.rows_y = grid.rows_y;
+  p.rows_z = grid.rows_z;
+  p.slots_x = grid.slots_x;
   p.images = images;
   p.repulsion = real(scene.numerics.walls.repulsion * 0.01 * c * c);
   return p;
 }
 
-template KernelParameters<float> kernel_parameters<float>(const Case&, const Layout&, const Discretisation&, int);
-template KernelParameters<double> kernel_parameters<double>(const Case&, const Layout&, const Discretisation&, int);
+template KernelParameters<float> kernel_parameters<float>(const Case&, const Layout&, const Discretisation&, const GridShape&, int);
+template KernelParameters<double> kernel_parameters<double>(const Case&, const Layout&, const Discretisation&, const GridShape&, int);
 
 }  // namespace wavetank

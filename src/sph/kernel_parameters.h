@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grid_shape.h"
 #include "wavetank/scene/case.h"
 #include "wavetank/sph/discretisation.h"
 
@@ -13,7 +14,8 @@ struct KernelParameters {
 };
 
 template <class Real>
-KernelParameters<Real> kernel_parameters(const Case& settled_case, const Layout& layout, const Discretisation& discretisation, int images);
+KernelParameters<Real> kernel_parameters(const Case& settled_case, const Layout& layout, const Discretisation& discretisation,
+                                         const GridShape& grid, int images);
 
 /// Fields of the arrays, as common.cl has them.
 namespace field {
@@ -50,16 +52,20 @@ constexpr int brim_count = 20;
 constexpr int image_count = 37;
 constexpr int frame_count = 12;
 constexpr int motion_count = 18;
-enum Region { region_owner, region_item, region_x, region_y, region_z, region_end_x, region_runs, region_rows, region_count };
-constexpr int region_run = 8;
+enum Region { region_owner, region_item, region_slot_x, region_row_y, region_row_z, region_end_x, region_runs, region_rows, region_count };
+constexpr int region_run = 32;
 constexpr int wrench_count = 12;
 constexpr int guard_owners = 2;
 constexpr int impulse_count = 6;
 constexpr int watch_count = 2;
 constexpr int energy_count = 7;
+enum Report { report_step, report_speed, report_acceleration, report_alarms = 4, report_impulses = 12 };
 enum Alarm { alarm_not_finite, alarm_outside, alarm_fast, alarm_first, alarm_guard, alarm_shepard, alarm_count };
 constexpr int reduce_chunk = 256;
 constexpr int scan_block = 256;
 }  // namespace field
+
+/// That reductions over the particles go by.
+inline int chunks_of(int particles) { return (particles + field::reduce_chunk - 1) / field::reduce_chunk; }
 
 }  // namespace wavetank

@@ -14,7 +14,6 @@ constexpr double element_margin = 0.1;
 
 // as place_walls.cl
 enum Kind { scalar, place_field, vector_field };
-constexpr int pose_count = 12;
 
 std::vector<int> kinds_of_fields(WallKind kind, int field_count) {
   std::vector<int> kinds(field_count, scalar);
@@ -60,7 +59,6 @@ MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::Sou
   field_count_ = fields_of(walls.kind, discretisation.dimensions);
   rest_ = compute::Buffer<Real>(device, walls.fields.download());
   kinds_ = compute::Buffer<int>(device, kinds_of_fields(walls.kind, field_count_));
-  poses_ = compute::Buffer<Real>(device, moving.size() * pose_count);
   slots_ = compute::Buffer<int>(device, moving_);
   std::vector<int> all(walls.count);
   std::iota(all.begin(), all.end(), 0);
@@ -163,12 +161,12 @@ void MovingWalls<Real>::move(WallArrays<Real>& walls, const std::vector<WallPose
     const Vector3d shift = pose.of(discretisation_.origin) - discretisation_.origin;
     for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(shift[axis]));
   }
-  poses_.upload(values);
+  if (!poses_.set(device_, values) && !resorted) return;
   const bool elements = walls.kind != WallKind::facets;
   const compute::Buffer<int>& slots = resorted && elements ? all_ : slots_;
   const int count = static_cast<int>(slots.size());
   const int from_field = elements ? walls.stride : 1, from_wall = elements ? 1 : walls.stride;
-  place_.launch(count, count, field_count_, from_field, from_wall, slots, from_, kinds_, poses_, rest_, walls.fields);
+  place_.launch(count, count, field_count_, from_field, from_wall, slots, from_, kinds_, poses_.on_device(), rest_, walls.fields);
 }
 
 template class MovingWalls<float>;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "kept_buffer.h"
 #include "wall_arrays.h"
 #include "wall_cells.h"
 #include "wavetank/compute/program.h"
@@ -15,6 +16,7 @@ struct WallPose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 
   Vector3d of(const Vector3d& point) const { return rotation * (point - rest) + place; }
+  bool operator==(const WallPose& other) const { return rest == other.rest && place == other.place && rotation == other.rotation; }
 };
 
 /// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the neighbour grid's lists are made
@@ -49,7 +51,8 @@ class MovingWalls {
   CellPairs still_;               ///< cells of the facets that stand
   std::vector<WallPose> listed_;  ///< the poses that the lists were made for
   int field_count_ = 0;
-  compute::Buffer<Real> rest_, poses_;
+  compute::Buffer<Real> rest_;
+  KeptBuffer<Real> poses_;
   compute::Buffer<int> kinds_, slots_, from_, all_;
   compute::Kernel place_;
 };

@@ -2,25 +2,23 @@
 
 namespace wavetank {
 
-ParticleGrid::ParticleGrid(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, int cells,
+ParticleGrid::ParticleGrid(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, int slots,
                            int particles)
-    : cells_(cells),
+    : slots_(slots),
       particles_(particles),
-      blocks_((cells + field::scan_block - 1) / field::scan_block),
-      counts_(device, cells),
-      starts_(device, cells + 1),
-      cursors_(device, cells),
+      blocks_((slots + field::scan_block - 1) / field::scan_block),
+      counts_(device, slots),
+      starts_(device, slots + 1),
       block_sums_(device, blocks_),
-      cell_of_(device, particles),
+      slot_of_(device, particles),
       order_(device, particles) {
   const compute::Program program(device, files, "grid.cl", options);
-  clear_ = program.kernel("clear");
-  count_ = program.kernel("count_cells");
+  count_ = program.kernel("count_slots");
   scan_blocks_ = program.kernel("scan_blocks");
   scan_totals_ = program.kernel("scan_totals");
   scan_starts_ = program.kernel("scan_starts");
   scatter_ = program.kernel("scatter");
-  settle_ = program.kernel("settle_cells");
+  settle_ = program.kernel("settle_slots");
   reorder_ = program.kernel("reorder");
 }
 

@@ -125,4 +125,30 @@ std::vector<TankImage> tank_images(const Case& scene, const Layout& layout, cons
   return images;
 }
 
+template <class Real>
+std::vector<Real> image_values(const std::vector<TankImage>& images) {
+  std::vector<Real> values;
+  const auto add = [&values](double value) { values.push_back(static_cast<Real>(value)); };
+  const auto add_matrix = [&add](const Eigen::Matrix3d& matrix) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) add(matrix(row, column));
+  };
+  for (const TankImage& image : images) {
+    add_matrix(image.matrix);
+    for (int axis = 0; axis < 3; ++axis) add(image.offset[axis]);
+    add_matrix(image.velocity_matrix);
+    for (int axis = 0; axis < 3; ++axis) add(image.velocity_offset[axis]);
+    for (const TankPlane& plane : image.seen_near) {
+      for (int axis = 0; axis < 3; ++axis) add(plane.normal[axis]);
+      add(plane.offset);
+    }
+    add(image.mirrored ? 1.0 : 0.0);
+  }
+  if (values.empty()) values.push_back(Real(0));
+  return values;
+}
+
+template std::vector<float> image_values(const std::vector<TankImage>&);
+template std::vector<double> image_values(const std::vector<TankImage>&);
+
 }  // namespace wavetank

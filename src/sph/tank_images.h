@@ -31,4 +31,8 @@ std::vector<TankPlane> tank_planes(const Layout& layout);
 /// Throws Error for what ghosts cannot do, and for a tank narrower than the kernel's support between images.
 std::vector<TankImage> tank_images(const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
 
+/// The images as neighbours.cl reads them.
+template <class Real>
+std::vector<Real> image_values(const std::vector<TankImage>& images);
+
 }  // namespace wavetank

@@ -36,13 +36,6 @@ class Fields {
   std::vector<Real> values_;
 };
 
-/// Corners in the order in which they turn left about the normal.
-Facet turned_left(Facet facet, int dimensions) {
-  const Vector3d turn = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
-  if (dimensions == 3 && turn.dot(facet.normal) < 0) std::swap(facet.corners[1], facet.corners[2]);
-  return facet;
-}
-
 /// The list may end before the walls do: a lid is not thin.
 bool is_thin(const std::vector<bool>& thin, int s) { return static_cast<std::size_t>(s) < thin.size() && thin[s]; }
 
@@ -113,6 +106,12 @@ void set_edges(const Facet& facet, int s, int dimensions, const InnerEdges& inne
 
 }  // namespace
 
+Facet turned_left(Facet facet, int dimensions) {
+  const Vector3d turn = (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
+  if (dimensions == 3 && turn.dot(facet.normal) < 0) std::swap(facet.corners[1], facet.corners[2]);
+  return facet;
+}
+
 template <class Real>
 WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const std::vector<bool>& thin,
                              const Discretisation& d)
@@ -179,66 +178,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
   if (whole && !cells.order.empty()) list = compute::Buffer<int>(device, cells.order);
 }
 
-template <class Real>
-Barriers<Real>::Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& edges,
-                         const Discretisation& d) {
-  const CellOrder cells = facets_by_cell(facets, d);
-  const double margin = 1e-4 * d.spacing;  // no gap between two that meet
-  std::vector<Real> values;
-  const auto add_plane = [&](const Vector3d& normal, const Vector3d& point, double offset) {
-    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(normal[axis]));
-    values.push_back(static_cast<Real>(offset - normal.dot(point - d.origin)));
-  };
-  for (const Facet& given : facets) {
-    const Facet facet = turned_left(given, d.dimensions);
-    add_plane(facet.normal, facet.plane_point, 0.0);
-    for (int k = 0; k < 3; ++k) {
-      if (d.dimensions == 2) {  // the two ends, the second of them twice
-        const Vector3d way = (facet.corners[1] - facet.corners[0]).normalized();
-        add_plane(k == 0 ? way : Vector3d(-way), facet.corners[k == 0 ? 0 : 1], margin);
-        continue;
-      }
-      const Vector3d edge = facet.corners[(k + 1) % 3] - facet.corners[k];
-      add_plane(facet.normal.cross(edge).normalized(), facet.corners[k], margin);
-    }
-  }
-  if (values.empty()) values.push_back(Real(0));
-  planes = compute::Buffer<Real>(device, values);
-  starts = compute::Buffer<int>(device, cells.begin);
-  list = cells.order.empty() ? compute::Buffer<int>(device, 1) : compute::Buffer<int>(device, cells.order);
-
-  std::vector<Facet> as_facets;
-  std::vector<Real> edge_values;
-  for (const Brim& brim : edges) {
-    Facet facet;
-    facet.corners[0] = brim.from;
-    facet.corners[1] = facet.corners[2] = brim.to;
-    as_facets.push_back(facet);
-    const double length = (brim.to - brim.from).norm();
-    const Vector3d way = d.dimensions == 2 ? Vector3d::UnitY() : Vector3d((brim.to - brim.from) / length);
-    const std::size_t end = edge_values.size() + field::brim_count;
-    const auto add = [&](const Vector3d& vector) {
-      for (int axis = 0; axis < 3; ++axis) edge_values.push_back(static_cast<Real>(vector[axis]));
-    };
-    add(brim.from - d.origin);
-    add(way);
-    edge_values.push_back(static_cast<Real>(length));
-    add(brim.face_normal);
-    add(brim.inwards);
-    add(brim.has_other ? brim.other_normal : Vector3d::Zero());
-    edge_values.push_back(brim.has_other ? Real(1) : Real(0));
-    edge_values.resize(end, Real(0));
-  }
-  const CellOrder brim_cells = facets_by_cell(as_facets, d);
-  if (edge_values.empty()) edge_values.push_back(Real(0));
-  brims = compute::Buffer<Real>(device, edge_values);
-  brim_starts = compute::Buffer<int>(device, brim_cells.begin);
-  brim_list = brim_cells.order.empty() ? compute::Buffer<int>(device, 1) : compute::Buffer<int>(device, brim_cells.order);
-}
-
 template struct WallArrays<float>;
 template struct WallArrays<double>;
-template struct Barriers<float>;
-template struct Barriers<double>;
 
 }  // namespace wavetank

@@ -5,7 +5,6 @@
 #include "kernel_parameters.h"
 #include "wavetank/compute/buffer.h"
 #include "wavetank/geometry/layout.h"
-#include "wavetank/geometry/thin_walls.h"
 
 namespace wavetank {
 
@@ -32,17 +31,7 @@ struct WallArrays {
   std::vector<Facet> shapes;     ///< at rest, in the fields' order; of rectangles the centre alone
 };
 
-/// Thin walls on the device, that the water does not see through.
-template <class Real>
-struct Barriers {
-  Barriers() = default;
-  Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& brims,
-           const Discretisation& discretisation);
-
-  compute::Buffer<int> starts, list;  ///< by cell
-  compute::Buffer<Real> planes;       ///< field::barrier_count values each
-  compute::Buffer<int> brim_starts, brim_list;
-  compute::Buffer<Real> brims;  ///< field::brim_count values each
-};
+/// Corners in the order in which they turn left about the normal.
+Facet turned_left(Facet facet, int dimensions);
 
 }  // namespace wavetank

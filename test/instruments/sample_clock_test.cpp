@@ -42,12 +42,14 @@ class ClockedFluid final : public Solver {
   std::vector<WallWrench> wrenches() override { return {}; }
   FluidEnergies energies() override { return {time, 0, 0, 1}; }
   FluidState download() override { return {}; }
+  PairCount count_pairs() override { return {}; }
   std::vector<char> save() const override { return {}; }
   void restore(const std::vector<char>&) override {}
   std::size_t device_memory() const override { return 0; }
 
  private:
   struct Points final : PointSet {
+    void set(const std::vector<Eigen::Vector3d>& points) override { count = points.size(); }
     std::size_t count = 0;
   };
 };

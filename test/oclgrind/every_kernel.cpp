@@ -40,6 +40,8 @@ void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
   const double force = solver->wrenches()[0][0].z();
   const double energy = solver->energies().potential;
   if (!std::isfinite(pressure) || !std::isfinite(force)) throw std::runtime_error("a pressure or a force is not finite");
+  const wavetank::PairCount pairs = solver->count_pairs();
+  if (pairs.pairs == 0 || pairs.candidates < pairs.pairs) throw std::runtime_error("the pairs are not counted right");
   const std::vector<char> saved = solver->save();
   solver->restore(saved);
   const std::size_t surface = solver->download().surface.size();

@@ -17,7 +17,7 @@ class Watchdog : public SimulationTest {
     for (int k = 0; k < 7; ++k) simulation.advance();
     simulation.save(path("snapshot"));
     Snapshot snapshot = read_snapshot(path("snapshot"));
-    const std::size_t count = simulation.state().particles, stride = (count + 15) / 16 * 16;
+    const std::size_t count = simulation.state().particles, stride = (count + 31) / 16 * 16;
     std::size_t index = 0;
     for (std::uint32_t stored = 0; index < count; ++index) {
       std::memcpy(&stored, snapshot.fluid.data() + snapshot.fluid.size() - (count - index) * sizeof stored, sizeof stored);

@@ -59,7 +59,7 @@ class StateBytes {
  public:
   explicit StateBytes(const Solver& solver) : StateBytes(solver.save(), solver.particle_count()) {}
   StateBytes(std::vector<char> saved, std::size_t particles)
-      : bytes(std::move(saved)), count(particles), stride((particles + 15) / 16 * 16) {}
+      : bytes(std::move(saved)), count(particles), stride((particles + 31) / 16 * 16) {}
 
   Real get(int field, std::size_t index) const {
     Real value;

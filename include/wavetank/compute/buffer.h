@@ -18,7 +18,7 @@ class Memory {
   Memory& operator=(Memory&&) noexcept = default;
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
-  void write(const void* from, std::size_t bytes, std::size_t offset = 0);  ///< blocking
+  void write(const void* from, std::size_t bytes, std::size_t offset = 0);  ///< queued; `from` may change at once
   void read(void* to, std::size_t bytes, std::size_t offset = 0) const;     ///< blocking, after everything queued before
   void fill_zero();
   void copy_from(const Memory& other, std::size_t bytes);
@@ -47,9 +47,11 @@ class Buffer {
   void upload(const std::vector<T>& values) {
     if (!values.empty()) memory_.write(values.data(), values.size() * sizeof(T));
   }
-  std::vector<T> download() const {
-    std::vector<T> values(count_);
-    if (count_ != 0) memory_.read(values.data(), count_ * sizeof(T));
+  std::vector<T> download() const { return download(count_); }
+  /// The first `count` of them.
+  std::vector<T> download(std::size_t count) const {
+    std::vector<T> values(count);
+    if (count != 0) memory_.read(values.data(), count * sizeof(T));
     return values;
   }
   void fill_zero() { memory_.fill_zero(); }

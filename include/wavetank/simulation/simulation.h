@@ -12,6 +12,7 @@
 #include "wavetank/instruments/samples.h"
 #include "wavetank/rigid/rigid_world.h"
 #include "wavetank/scene/case.h"
+#include "wavetank/sph/pair_count.h"
 
 namespace wavetank {
 
@@ -92,6 +93,8 @@ class Simulation {
   std::string device_description() const;  ///< device, platform, driver, in one line
   std::string summary() const;             ///< several lines: spacing, h, c₀, bounds on Δt, particles, elements, memory, device
   std::vector<KernelTime> kernel_times() const;
+  PairCount count_pairs() const;      ///< of the neighbour loop at the present positions
+  std::size_t device_memory() const;  ///< bytes
 
  private:
   struct Parts;

@@ -16,6 +16,7 @@
 #include "wavetank/geometry/thin_walls.h"
 #include "wavetank/scene/case.h"
 #include "wavetank/sph/discretisation.h"
+#include "wavetank/sph/pair_count.h"
 
 namespace wavetank {
 
@@ -50,10 +51,12 @@ struct PointValue {
   double shepard = 0;   ///< γ at the point
 };
 
-/// Points kept on the device, made once by the solver that evaluates them.
+/// Points kept on the device, made by the solver that evaluates them.
 class PointSet {
  public:
   virtual ~PointSet() = default;
+  /// Takes others instead, m, in the case's coordinates; as many as there are.
+  virtual void set(const std::vector<Eigen::Vector3d>& points) = 0;
 };
 
 /// In the frame that the fluid is solved in.
@@ -155,6 +158,8 @@ class Solver {
   virtual std::vector<WallWrench> wrenches() = 0;
   virtual FluidEnergies energies() = 0;
   virtual FluidState download() = 0;
+  /// Of the present positions.
+  virtual PairCount count_pairs() = 0;
   /// The exact state, as bytes of this solver's precision: what a restart needs.
   virtual std::vector<char> save() const = 0;
   /// Throws Error if the bytes are not those of a state of this size.

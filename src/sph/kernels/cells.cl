@@ -1,6 +1,7 @@
+// Two grids: cells of the support's size, by which the walls are found, and for the particles rows along x, finer than that, each cut into slots.
 #include "common.cl"
 
-// The cell of a coordinate: clamped to the inner cells, so that the border stays empty and a lost particle cannot be read out of bounds.
+// The cell of a coordinate, counted in cells: clamped to the inner cells, so that the border stays empty and a lost particle cannot be read out of bounds.
 INLINE int cell_coordinate(real coordinate, real inverse_cell, int cells) {
   const int c = (int)(fmin(fmax(coordinate * inverse_cell, R(0.0)), R(1.0e6))) + 1;
   return min(max(c, 1), cells - 2);
@@ -15,4 +16,33 @@ INLINE int cell_index(__constant const parameters_t* p, real x, real y, real z) 
 #else
   return cz * p->cells_x + cx;
 #endif
+}
+
+// A particle's slot of its row.
+INLINE int slot_coordinate(__constant const parameters_t* p, real x) { return cell_coordinate(x, p->inverse_slot, p->slots_x); }
+
+// Rows and slots in the order in which the particles lie in memory: every other row runs backwards and every other layer of rows from its last row, so that
+// particles next to each other in memory lie together at the ends of rows too.
+INLINE int row_index(__constant const parameters_t* p, int ry, int rz) {
+#if DIMENSIONS == 3
+  return rz * p->rows_y + ((rz & 1) != 0 ? p->rows_y - 1 - ry : ry);
+#else
+  return rz;
+#endif
+}
+
+// The first of the slots from `first` to `last` along x, in memory.
+INLINE int first_slot(__constant const parameters_t* p, int row, int first, int last) {
+  return row * p->slots_x + ((row & 1) != 0 ? p->slots_x - 1 - last : first);
+}
+
+INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) {
+  const int rz = cell_coordinate(z, p->inverse_row, p->rows_z);
+#if DIMENSIONS == 3
+  const int ry = cell_coordinate(y, p->inverse_row, p->rows_y);
+#else
+  const int ry = 0;
+#endif
+  const int slot = slot_coordinate(p, x);
+  return first_slot(p, row_index(p, ry, rz), slot, slot);
 }

@@ -54,33 +54,27 @@ typedef struct {
 #define WALL_AREA 8
 // ... and each kind its own from here on
 
-// Regions of cells about an owner of walls, in which particles may touch it; gone through in runs of cells along x.
-#define REGION_RUN 8
+// Regions of the grid about an owner of walls, in which particles may touch it; gone through in runs of slots along x.
+#define REGION_RUN 32
 #define REGION_OWNER 0
 #define REGION_ITEM 1         // its first run among those of all regions
-#define REGION_CELL_X 2
-#define REGION_CELL_Y 3
-#define REGION_CELL_Z 4
-#define REGION_END_X 5        // beyond its last cell
+#define REGION_SLOT_X 2
+#define REGION_ROW_Y 3
+#define REGION_ROW_Z 4
+#define REGION_END_X 5        // beyond its last slot
 #define REGION_RUNS 6         // in a row of it
 #define REGION_ROWS 7         // along y
 #define REGION_COUNT 8
 #define WRENCH_COUNT 12       // pressure force, viscous force, pressure torque, viscous torque
 
+// Motions of walls. First the tank's frame, in which the fluid is solved: gravity less the acceleration of the frame's origin, angular velocity, angular
+// acceleration, and the origin itself.
+#define FRAME_COUNT 12
+// Then, of each owner of walls: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
+#define MOTION_COUNT 18
+#define OWNER_MOTION(motions, owner) ((motions) + FRAME_COUNT + MOTION_COUNT * (owner))
+
 // Of how many owners of walls the guard tells apart what they take from one particle.
 #define GUARD_OWNERS 2
 #define NO_OWNER (-1)
 #define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
-
-// Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
-INLINE real kernel_value(__constant const parameters_t* p, real distance) {
-  const real q = distance * p->inverse_smoothing;
-  const real t = fmax(R(0.0), R(1.0) - R(0.5) * q);
-  const real tt = t * t;
-  return p->kernel_scale * tt * tt * (R(1.0) + R(2.0) * q);
-}
-
-INLINE real kernel_slope(__constant const parameters_t* p, real distance) {
-  const real t = fmax(R(0.0), R(1.0) - R(0.5) * distance * p->inverse_smoothing);
-  return p->slope_scale * t * t * t;
-}

@@ -7,68 +7,82 @@
 
 typedef struct {
   neighbours_t near;
-  const walls_t* walls;
 #if DIFFUSION_ANTUONO
   __global const real* gradient;
-  real gradient_x, gradient_y, gradient_z;
+  tile_vector_t own_gradient;
 #endif
-  real u, v, w, compression;
-#if DIFFUSION_FOURTAKAS
-  vector_t hydrostatic;  // gradient of the compression
-#if MOVING_FRAME
+  tile u, v, w, compression;
+#if DIFFUSION_FOURTAKAS && MOVING_FRAME
+  tile_vector_t hydrostatic;  // gradient of the compression
   vector_t spin;
   real half_inverse;  // ρ/(2K)
 #endif
+  tile divergence, diffusion;
+#if SHEPARD_VOLUMETRIC
+  tile shepard;
 #endif
-  real divergence, diffusion;
-  real shepard;
 } sweep_t;
 
-INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
-  const real distance = sqrt(r2);
-  const real slope_volume = kernel_slope(p, distance) * volume;
-  const vector_t velocity = neighbour_velocity(&a->near, j);
-  real approach = (velocity.x - a->u) * rx + (velocity.z - a->w) * rz;
+typedef struct {
+  const walls_t* walls;
+  real u, v, w;
+  real divergence, shepard;
+} wall_sweep_t;
+
+#if DIFFUSION_FOURTAKAS
+// The difference in compression that hydrostatics explains, linearised.
+INLINE tile explained_difference(const sweep_t* a, __constant const parameters_t* p, tile_vector_t relative, tile rx, tile ry, tile rz) {
+#if MOVING_FRAME
+  // by the mean of gravity at either end, so that what one gains the other loses: centrifugal and Coriolis' forces differ between them
+  const tile_vector_t apart = make_tile_vector(rx, ry, rz);
+  const tile_vector_t around = tile_cross(a->spin, apart);
+  const tile_vector_t carried = tile_cross(a->spin, relative);
+  return tile_dot(a->hydrostatic, apart) + a->half_inverse * (tile_dot(around, around) - R(2.0) * tile_dot(carried, apart));
+#elif DIMENSIONS == 3
+  return p->hydrostatic_x * rx + p->hydrostatic_y * ry + p->hydrostatic_z * rz;
+#else
+  return p->hydrostatic_x * rx + p->hydrostatic_z * rz;
+#endif
+}
+#endif
+
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile volume = near_field(&a->near, FIELD_VOLUME, j);
+  const tile distance = sqrt(r2);
+  const tile slope_volume = kernel_slopes(p, distance) * volume;
+  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
+  const tile_vector_t relative = make_tile_vector(velocity.x - a->u, DIMENSIONS == 3 ? velocity.y - a->v : (tile)(R(0.0)), velocity.z - a->w);
+  tile approach = relative.x * rx + relative.z * rz;
 #if DIMENSIONS == 3
-  approach += (velocity.y - a->v) * ry;
+  approach += relative.y * ry;
 #endif
   a->divergence += approach * slope_volume;
 #if SHEPARD_VOLUMETRIC
-  a->shepard += kernel_value(p, distance) * volume;
+  a->shepard += kernel_values(p, distance) * volume;
 #endif
 
 #if DIFFUSION_FOURTAKAS || DIFFUSION_ANTUONO
-  const real difference = neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression;
+  const tile difference = neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression;
 #endif
 #if DIFFUSION_FOURTAKAS
-  // of the dynamic density only: what hydrostatics explains, linearised, is not diffused
-  real explained = a->hydrostatic.x * rx + a->hydrostatic.z * rz;
-#if DIMENSIONS == 3
-  explained += a->hydrostatic.y * ry;
-#endif
-#if MOVING_FRAME
-  // up to the mean of gravity at either end, so that what one gains the other loses: centrifugal and Coriolis' forces differ between them
-  const vector_t apart = make_vector(rx, ry, rz);
-  const vector_t around = cross3(a->spin, apart);
-  const vector_t carried = cross3(a->spin, make_vector(velocity.x - a->u, DIMENSIONS == 3 ? velocity.y - a->v : R(0.0), velocity.z - a->w));
-  explained += a->half_inverse * (dot3(around, around) - R(2.0) * dot3(carried, apart));
-#endif
-  a->diffusion += R(2.0) * slope_volume * (difference - explained);
+  // of the dynamic density only: what hydrostatics explains is not diffused; twice this, once all is summed
+  a->diffusion += slope_volume * (difference - explained_difference(a, p, relative, rx, ry, rz));
 #elif DIFFUSION_ANTUONO
-  vector_t gradient = make_vector(a->gradient[j], a->gradient[a->near.stride + j], a->gradient[2 * a->near.stride + j]);
+  const int stride = a->near.stride;
+  tile_vector_t gradient = make_tile_vector(near_values(a->gradient, j), DIMENSIONS == 3 ? near_values(a->gradient + stride, j) : (tile)(R(0.0)),
+                                            near_values(a->gradient + 2 * stride, j));
 #if GHOSTS
   if (a->near.mirrored) gradient = turned(a->near.image + IMAGE_MATRIX, gradient.x, gradient.y, gradient.z);
 #endif
-  real explained = (a->gradient_x + gradient.x) * rx + (a->gradient_z + gradient.z) * rz;
+  tile explained = (a->own_gradient.x + gradient.x) * rx + (a->own_gradient.z + gradient.z) * rz;
 #if DIMENSIONS == 3
-  explained += (a->gradient_y + gradient.y) * ry;
+  explained += (a->own_gradient.y + gradient.y) * ry;
 #endif
-  a->diffusion += slope_volume * (R(2.0) * difference - explained);
+  a->diffusion += slope_volume * (difference - R(0.5) * explained);
 #endif
 }
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if SHEPARD_GEOMETRIC
   a->shepard += c.shepard;
@@ -79,42 +93,58 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
 
 #include "sweep.cl"
 
-__kernel void continuity(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                         WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
+__kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride,
+                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
-                         state[FIELD_Z * stride + i]);
-  a.walls = &walls;
+  a.near = neighbours_of(state, stride, reach, &walls, first, count);
 #if DIFFUSION_ANTUONO
   a.gradient = gradient;
-  a.gradient_x = gradient[i];
-  a.gradient_y = DIMENSIONS == 3 ? gradient[stride + i] : R(0.0);
-  a.gradient_z = gradient[2 * stride + i];
+  a.own_gradient = make_tile_vector(own_values(gradient, first), own_values(gradient + stride, first), own_values(gradient + 2 * stride, first));
 #endif
-  a.u = state[FIELD_U * stride + i];
-  a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
-  a.w = state[FIELD_W * stride + i];
-  a.compression = state[FIELD_COMPRESSION * stride + i];
-  a.shepard = SHEPARD_START;
-#if DIFFUSION_FOURTAKAS
-#if MOVING_FRAME
-  const vector_t gravity = gravity_at(p, &walls, a.near.x, a.near.y, a.near.z, make_vector(a.u, a.v, a.w));
+  a.u = own_values(state + FIELD_U * stride, first);
+  a.v = own_values(state + FIELD_V * stride, first);
+  a.w = own_values(state + FIELD_W * stride, first);
+  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
+#if DIFFUSION_FOURTAKAS && MOVING_FRAME
   const real inverse = p->density / p->bulk_modulus;
-  a.hydrostatic = make_vector(gravity.x * inverse, gravity.y * inverse, gravity.z * inverse);
+  places_t hydrostatic;
+  for (int k = 0; k < TILE_OWN; ++k) {
+    const vector_t gravity = gravity_at(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k], velocity_of(state, stride, first + k));
+    hydrostatic.x[k] = gravity.x * inverse;
+    hydrostatic.y[k] = gravity.y * inverse;
+    hydrostatic.z[k] = gravity.z * inverse;
+  }
+  a.hydrostatic = make_tile_vector(spread_own(hydrostatic.x), spread_own(hydrostatic.y), spread_own(hydrostatic.z));
   a.spin = motion_vector(walls.motions, 1);
   a.half_inverse = R(0.5) * inverse;
+#endif
+  sweep_particles(&a, p, slot_start, images);
+  real divergence[TILE_OWN], diffusion[TILE_OWN];
+  own_sums(a.divergence, divergence);
+  own_sums(a.diffusion, diffusion);
+#if SHEPARD_VOLUMETRIC
+  real shepard[TILE_OWN];
+  own_sums(a.shepard, shepard);
+#endif
+
+  for (int k = 0; k < TILE_OWN; ++k) {
+    const int i = first + k;
+    if (i >= count) return;
+    const vector_t own = velocity_of(state, stride, i);
+#if SHEPARD_VOLUMETRIC
+    wall_sweep_t b = {&walls, own.x, own.y, own.z, divergence[k], shepard[k]};
 #else
-  a.hydrostatic = make_vector(p->hydrostatic_x, p->hydrostatic_y, p->hydrostatic_z);
+    wall_sweep_t b = {&walls, own.x, own.y, own.z, divergence[k], SHEPARD_START};
 #endif
-#endif
-  sweep_particles(&a, p, cell_start, images);
 #if !GHOSTS
-  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+    sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
-  const real renormalise = RENORMALISE_DIVERGENCE ? R(1.0) / bounded_shepard(a.shepard) : R(1.0);
-  rates[RATE_COMPRESSION * stride + i] = -(R(1.0) + a.compression) * a.divergence * renormalise + p->density_diffusion * a.diffusion;
-  rates[RATE_SHEPARD * stride + i] = a.shepard;
+    const real renormalise = RENORMALISE_DIVERGENCE ? R(1.0) / bounded_shepard(b.shepard) : R(1.0);
+    rates[RATE_COMPRESSION * stride + i] = -(R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence * renormalise +
+                                           R(2.0) * p->density_diffusion * diffusion[k];
+    rates[RATE_SHEPARD * stride + i] = b.shepard;
+  }
 }

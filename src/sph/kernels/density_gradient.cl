@@ -4,14 +4,14 @@
 
 typedef struct {
   neighbours_t near;
-  real compression;
-  real sum_x, sum_y, sum_z;
-  real xx, xy, xz, yy, yz, zz;
+  tile compression;
+  tile sum_x, sum_y, sum_z;
+  tile xx, xy, xz, yy, yz, zz;
 } sweep_t;
 
-INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  const real slope_volume = kernel_slope(p, sqrt(r2)) * a->near.state[FIELD_VOLUME * a->near.stride + j];
-  const real weighted = slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression);
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile weighted = slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression);
   a->sum_x += weighted * rx;
   a->sum_z += weighted * rz;
   a->xx += slope_volume * rx * rx;
@@ -27,32 +27,46 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 
 #include "sweep.cl"
 
-__kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
-                               WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
-  sweep_t a = {0};
-  a.near = neighbours_of(state, stride, &walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
-                         state[FIELD_Z * stride + i]);
-  a.compression = state[FIELD_COMPRESSION * stride + i];
-  sweep_particles(&a, p, cell_start, images);
-
-  // a matrix that is nearly singular (a particle of a thin jet) has no gradient to trust: taken as zero
+// Written for particle i, from its own sums. A matrix that is nearly singular (a particle of a thin jet) has no gradient to trust: taken as zero.
+INLINE void write_gradient(__global real* gradient, int stride, int i, vector_t sum, real xx, real xy, real xz, real yy, real yz, real zz) {
   const real least = R(1.0e-3);
 #if DIMENSIONS == 3
-  const real c_xx = a.yy * a.zz - a.yz * a.yz, c_xy = a.xz * a.yz - a.xy * a.zz, c_xz = a.xy * a.yz - a.xz * a.yy;
-  const real c_yy = a.xx * a.zz - a.xz * a.xz, c_yz = a.xy * a.xz - a.xx * a.yz, c_zz = a.xx * a.yy - a.xy * a.xy;
-  const real determinant = a.xx * c_xx + a.xy * c_xy + a.xz * c_xz;
+  const real c_xx = yy * zz - yz * yz, c_xy = xz * yz - xy * zz, c_xz = xy * yz - xz * yy;
+  const real c_yy = xx * zz - xz * xz, c_yz = xy * xz - xx * yz, c_zz = xx * yy - xy * xy;
+  const real determinant = xx * c_xx + xy * c_xy + xz * c_xz;
   const real scale = determinant > least ? R(1.0) / determinant : R(0.0);
-  gradient[i] = scale * (c_xx * a.sum_x + c_xy * a.sum_y + c_xz * a.sum_z);
-  gradient[stride + i] = scale * (c_xy * a.sum_x + c_yy * a.sum_y + c_yz * a.sum_z);
-  gradient[2 * stride + i] = scale * (c_xz * a.sum_x + c_yz * a.sum_y + c_zz * a.sum_z);
+  gradient[i] = scale * (c_xx * sum.x + c_xy * sum.y + c_xz * sum.z);
+  gradient[stride + i] = scale * (c_xy * sum.x + c_yy * sum.y + c_yz * sum.z);
+  gradient[2 * stride + i] = scale * (c_xz * sum.x + c_yz * sum.y + c_zz * sum.z);
 #else
-  const real determinant = a.xx * a.zz - a.xz * a.xz;
+  const real determinant = xx * zz - xz * xz;
   const real scale = determinant > least ? R(1.0) / determinant : R(0.0);
-  gradient[i] = scale * (a.zz * a.sum_x - a.xz * a.sum_z);
+  gradient[i] = scale * (zz * sum.x - xz * sum.z);
   gradient[stride + i] = R(0.0);
-  gradient[2 * stride + i] = scale * (a.xx * a.sum_z - a.xz * a.sum_x);
+  gradient[2 * stride + i] = scale * (xx * sum.z - xz * sum.x);
 #endif
+}
+
+__kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride,
+                               real reach, WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  sweep_t a = {0};
+  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
+  sweep_particles(&a, p, slot_start, images);
+  places_t sum;
+  real xx[TILE_OWN], xy[TILE_OWN], xz[TILE_OWN], yy[TILE_OWN], yz[TILE_OWN], zz[TILE_OWN];
+  own_sums(a.sum_x, sum.x);
+  own_sums(a.sum_y, sum.y);
+  own_sums(a.sum_z, sum.z);
+  own_sums(a.xx, xx);
+  own_sums(a.xy, xy);
+  own_sums(a.xz, xz);
+  own_sums(a.yy, yy);
+  own_sums(a.yz, yz);
+  own_sums(a.zz, zz);
+  for (int k = 0; k < a.near.own; ++k)
+    write_gradient(gradient, stride, first + k, make_vector(sum.x[k], sum.y[k], sum.z[k]), xx[k], xy[k], xz[k], yy[k], yz[k], zz[k]);
 }

@@ -17,11 +17,11 @@ typedef struct {
   int owners[GUARD_OWNERS];
   vector_t lost[GUARD_OWNERS];  // of its velocity, to each
 #endif
-} sweep_t;
+} wall_sweep_t;
 
 #if GUARD_IMPULSES
 // A particle that walls of more owners hold at once gives what is beyond to the last of them.
-INLINE void lose(sweep_t* a, int owner, vector_t velocity) {
+INLINE void lose(wall_sweep_t* a, int owner, vector_t velocity) {
   int slot = 0;
   while (slot + 1 < GUARD_OWNERS && a->owners[slot] != NO_OWNER && a->owners[slot] != owner) ++slot;
   if (a->owners[slot] == NO_OWNER) a->owners[slot] = owner;
@@ -29,7 +29,7 @@ INLINE void lose(sweep_t* a, int owner, vector_t velocity) {
 }
 #endif
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
   contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
   if (a->above_rim) {
@@ -87,7 +87,8 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
   return held;
 }
 
-__kernel void guard(__constant const parameters_t* p, int count, __global const int* cell_start, __global real* state, int stride, WALL_ARGUMENTS,
+__kernel void guard(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, int stride, real reach,
+                    WALL_ARGUMENTS,
                     __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
                     __global int* hits, __global int* takers, __global real* lost) {
   const int i = get_global_id(0);
@@ -117,7 +118,7 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
   const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing;
   if (!near && !above_rim) return;
-  sweep_t a = {0};
+  wall_sweep_t a = {0};
   const walls_t walls = WALLS_OF_ARGUMENTS;
   a.walls = &walls;
   // the middle of the step is half a step of the first velocity away from its start

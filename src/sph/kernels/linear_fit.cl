@@ -1,16 +1,23 @@
 // The fluid's pressure on a wall by a weighted linear fit. What hydrostatics explains is taken out first, and the slope that is left is fitted with a
 // small ridge, so that a few particles in a droplet give their average and many give the true slope: an average alone misses what an impact or a curved
 // stream adds towards a wall.
+#define FIT_SUMS(type)                                \
+  type weight, pressure;       /* Σ w, Σ w p */     \
+  type x, y, z;                /* Σ w r */          \
+  type xx, xy, xz, yy, yz, zz; /* Σ w r r */        \
+  type px, py, pz;             /* Σ w p r */
+
 typedef struct {
-  real weight, pressure;          // Σ w, Σ w p
-  real x, y, z;                   // Σ w r
-  real xx, xy, xz, yy, yz, zz;    // Σ w r r
-  real px, py, pz;                // Σ w p r
+  FIT_SUMS(tile)
+} tile_fit_t;
+
+typedef struct {
+  FIT_SUMS(real)
 } linear_fit_t;
 
 // r = x_j − x; pressure is the particle's own, carried to the point by hydrostatics.
-INLINE void add_to_fit(linear_fit_t* f, real weight, real pressure, real rx, real ry, real rz) {
-  const real wx = weight * rx, wz = weight * rz;
+INLINE void add_to_fit(tile_fit_t* f, tile weight, tile pressure, tile rx, tile ry, tile rz) {
+  const tile wx = weight * rx, wz = weight * rz;
   f->weight += weight;
   f->pressure += weight * pressure;
   f->x += wx;
@@ -21,12 +28,36 @@ INLINE void add_to_fit(linear_fit_t* f, real weight, real pressure, real rx, rea
   f->px += wx * pressure;
   f->pz += wz * pressure;
 #if DIMENSIONS == 3
-  const real wy = weight * ry;
+  const tile wy = weight * ry;
   f->y += wy;
   f->xy += wx * ry;
   f->yy += wy * ry;
   f->yz += wy * rz;
   f->py += wy * pressure;
+#endif
+}
+
+// The fit of each own particle.
+INLINE void own_fits(const tile_fit_t* f, linear_fit_t* fits) {
+  real sums[TILE_OWN];
+#define OWN_FIT(sum)         \
+  own_sums(f->sum, sums);    \
+  for (int k = 0; k < TILE_OWN; ++k) fits[k].sum = sums[k];
+  OWN_FIT(weight)
+  OWN_FIT(pressure)
+  OWN_FIT(x)
+  OWN_FIT(z)
+  OWN_FIT(xx)
+  OWN_FIT(xz)
+  OWN_FIT(zz)
+  OWN_FIT(px)
+  OWN_FIT(pz)
+#if DIMENSIONS == 3
+  OWN_FIT(y)
+  OWN_FIT(xy)
+  OWN_FIT(yy)
+  OWN_FIT(yz)
+  OWN_FIT(py)
 #endif
 }
 

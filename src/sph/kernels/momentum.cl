@@ -17,15 +17,33 @@
 
 typedef struct {
   neighbours_t near;
+  tile u, v, w, pressure;
+#if NEEDS_FIT
+  bool fitting;  // there are walls to fit a plane for
+  tile_fit_t fit;
+#if MOVING_FRAME
+  tile_vector_t gravity;
+#endif
+#endif
+  tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
+#if WALL_FORCES || VISCOSITY_MORRIS
+  tile viscous_x, viscous_y, viscous_z;
+#endif
+#if SHEPARD_VOLUMETRIC
+  tile shepard;
+#endif
+} sweep_t;
+
+typedef struct {
   const walls_t* walls;
   __global const real* wall_loads;
-  real u, v, w, pressure, density;
+  real x, y, z, u, v, w, pressure, density;
   vector_t gravity;
-  real force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
+  real force_x, force_y, force_z;
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
 #if NEEDS_FIT
-  bool fitting;  // there are walls to fit a plane for
+  bool fitting;
   linear_fit_t fit;
   plane_t fitted;  // once all particles are in the fit
 #endif
@@ -36,34 +54,42 @@ typedef struct {
   vector_t touched_at;   // Σ ∫ y W dS over the owner's
   vector_t push, drag;   // of the owner's walls
 #endif
-} sweep_t;
+} wall_sweep_t;
 
-INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  const real volume = a->near.state[FIELD_VOLUME * a->near.stride + j];
-  const real distance = sqrt(r2);
-  const real slope_volume = kernel_slope(p, distance) * volume;
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile volume = near_field(&a->near, FIELD_VOLUME, j);
+  const tile distance = sqrt(r2);
+  const tile slope_volume = kernel_slopes(p, distance) * volume;
 #if SHEPARD_VOLUMETRIC
-  a->shepard += kernel_value(p, distance) * volume;
+  a->shepard += kernel_values(p, distance) * volume;
 #endif
-  const real pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
+  const tile pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
 #if NEEDS_FIT
-  if (a->fitting)
-    add_to_fit(&a->fit, kernel_value(p, distance) * volume, pressure - p->density * (a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz), rx, ry, rz);
-#endif
-  const vector_t velocity = neighbour_velocity(&a->near, j);
-  const real du = velocity.x - a->u;
-  const real dw = velocity.z - a->w;
-#if DIMENSIONS == 3
-  const real dv = velocity.y - a->v;
-  const real approach = du * rx + dv * ry + dw * rz;
+  if (a->fitting) {
+#if MOVING_FRAME
+    const tile head = tile_dot(a->gravity, make_tile_vector(rx, ry, rz));
+#elif DIMENSIONS == 3
+    const tile head = p->gravity_x * rx + p->gravity_y * ry + p->gravity_z * rz;
 #else
-  const real approach = du * rx + dw * rz;
+    const tile head = p->gravity_x * rx + p->gravity_z * rz;
+#endif
+    add_to_fit(&a->fit, kernel_values(p, distance) * volume, pressure - p->density * head, rx, ry, rz);
+  }
+#endif
+  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
+  const tile du = velocity.x - a->u;
+  const tile dw = velocity.z - a->w;
+#if DIMENSIONS == 3
+  const tile dv = velocity.y - a->v;
+  const tile approach = du * rx + dv * ry + dw * rz;
+#else
+  const tile approach = du * rx + dw * rz;
 #endif
   // only against a division by zero: the 0.01 h² of the papers makes the viscosity 2 to 5 % too small
-  const real inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);
+  const tile inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);
 #if VISCOSITY_MORRIS
   // isotropic for the physical viscosity (MLS paper, eq 14); the artificial one acts along the line of centres all the same
-  const real shear = R(2.0) * p->viscosity * slope_volume;
+  const tile shear = R(2.0) * p->viscosity * slope_volume;
   a->viscous_x += shear * du;
   a->viscous_z += shear * dw;
 #if DIMENSIONS == 3
@@ -71,13 +97,13 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 #endif
 #endif
 #if WALL_FORCES
-  const real friction = slope_volume * p->pair_viscosity * approach * inverse;
+  const tile friction = slope_volume * p->pair_viscosity * approach * inverse;
   a->viscous_x += friction * rx;
   a->viscous_y += friction * ry;
   a->viscous_z += friction * rz;
-  const real central = slope_volume * (a->pressure + pressure);
+  const tile central = slope_volume * (a->pressure + pressure);
 #else
-  const real central = slope_volume * (a->pressure + pressure - p->pair_viscosity * approach * inverse);
+  const tile central = slope_volume * (a->pressure + pressure - p->pair_viscosity * approach * inverse);
 #endif
   a->force_x += central * rx;
   a->force_z += central * rz;
@@ -87,7 +113,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 }
 
 #if NEEDS_FIT
-INLINE plane_t plane_of_fit(const sweep_t* a, __constant const parameters_t* p, vector_t added_slope) {
+INLINE plane_t plane_of_fit(const wall_sweep_t* a, __constant const parameters_t* p, vector_t added_slope) {
   plane_t plane = fitted_plane(p, &a->fit, added_slope);
 #if CLAMP_PRESSURE
   plane.value = fmax(plane.value, R(0.0));
@@ -95,10 +121,10 @@ INLINE plane_t plane_of_fit(const sweep_t* a, __constant const parameters_t* p, 
   return plane;
 }
 
-INLINE void finish_fit(sweep_t* a, __constant const parameters_t* p) { a->fitted = plane_of_fit(a, p, make_vector(R(0.0), R(0.0), R(0.0))); }
+INLINE void finish_fit(wall_sweep_t* a, __constant const parameters_t* p) { a->fitted = plane_of_fit(a, p, make_vector(R(0.0), R(0.0), R(0.0))); }
 
 // ∫ (p_i + p) W dS with the fitted plane for p. Where the wall accelerates, what is taken out before the fit and added after it is hydrostatics in its frame.
-INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
+INLINE real fitted_push(const wall_sweep_t* a, __constant const parameters_t* p, const contact_t* c, vector_t gravity) {
 #if MOVING_WALLS
   if (!a->fitting || c->weight == R(0.0)) return R(0.0);  // no wall is near, and there may be no fit
   const plane_t plane = plane_of_fit(a, p, make_vector(p->density * (a->gravity.x - gravity.x), p->density * (a->gravity.y - gravity.y),
@@ -117,7 +143,7 @@ INLINE real fitted_push(const sweep_t* a, __constant const parameters_t* p, cons
 #define WALL_DRAG ((DIMENSIONS + R(2.0)) / (DIMENSIONS + R(1.0)))
 #endif
 
-INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if WALL_FORCES
   const bool own = a->owner == (int)WALL_FIELD(a->walls, WALL_OWNER, s);
@@ -143,8 +169,8 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
   if (own) {
     a->push = make_vector(a->push.x + push * c.normal.x, a->push.y + push * c.normal.y, a->push.z + push * c.normal.z);
     // from where the particle is, also if the wall is an image's
-    a->touched_at = make_vector(a->touched_at.x + c.weight * a->near.x + c.moment.x, a->touched_at.y + c.weight * a->near.y + c.moment.y,
-                                a->touched_at.z + c.weight * a->near.z + c.moment.z);
+    a->touched_at = make_vector(a->touched_at.x + c.weight * a->x + c.moment.x, a->touched_at.y + c.weight * a->y + c.moment.y,
+                                a->touched_at.z + c.weight * a->z + c.moment.z);
   }
 #endif
 #if NO_SLIP
@@ -167,7 +193,7 @@ INLINE void add_wall(sweep_t* a, __constant const parameters_t* p, int s, real x
 
 #if THIN_WALLS
 // Beyond a plate's edge there is water, not seen but there: its pressure goes on from the particle's.
-INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+INLINE void add_brim(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
 #if WALL_FORCES
   if (a->looking) return;
 #endif
@@ -184,12 +210,12 @@ INLINE void add_brim(sweep_t* a, __constant const parameters_t* p, int s, real x
 #if GHOSTS
 // Short-range repulsion by the foot of the particle on each plane ([B] of docs/numerics.md, §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
 // at a tenth of it.
-INLINE void add_repulsion(sweep_t* a, __constant const parameters_t* p, __global const real* images) {
+INLINE void add_repulsion(wall_sweep_t* a, __constant const parameters_t* p, __global const real* images) {
   for (int k = 0; k < p->images; ++k) {
     __global const real* image = images + k * IMAGE_COUNT;
     if (image[IMAGE_MIRRORED] < R(0.5) || image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;
     __global const real* plane = image + IMAGE_NEAR;
-    const real distance = plane[0] * a->near.x + plane[1] * a->near.y + plane[2] * a->near.z + plane[3];
+    const real distance = plane[0] * a->x + plane[1] * a->y + plane[2] * a->z + plane[3];
     const real reach = R(0.5) * p->spacing;
     if (distance >= reach) continue;
     const real d = fmax(distance, R(0.2) * reach);
@@ -222,25 +248,103 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
 }
 #endif
 
-INLINE sweep_t start_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
-                          __global const real* wall_loads) {
+// The sums of the tile that begins with particle `first`.
+INLINE sweep_t start_sums(__constant const parameters_t* p, int first, int end, __global const real* state, int stride, real reach,
+                          const walls_t* walls) {
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, walls, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0),
-                         state[FIELD_Z * stride + i]);
-  a.walls = walls;
-  a.wall_loads = wall_loads;
-  a.u = state[FIELD_U * stride + i];
-  a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
-  a.w = state[FIELD_W * stride + i];
-  a.pressure = state[FIELD_PRESSURE * stride + i];
-  a.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
-  a.gravity = gravity_at(p, walls, a.near.x, a.near.y, a.near.z, make_vector(a.u, a.v, a.w));
-  a.shepard = SHEPARD_START;
-  a.clearance = p->support;
+  a.near = neighbours_of(state, stride, reach, walls, first, end);
+  a.u = own_values(state + FIELD_U * stride, first);
+  a.v = own_values(state + FIELD_V * stride, first);
+  a.w = own_values(state + FIELD_W * stride, first);
+  a.pressure = own_values(state + FIELD_PRESSURE * stride, first);
 #if NEEDS_FIT
   a.fitting = true;
+#if MOVING_FRAME
+  places_t gravity;
+  for (int k = 0; k < TILE_OWN; ++k) {
+    const vector_t own = gravity_at(p, walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k], velocity_of(state, stride, first + k));
+    gravity.x[k] = own.x;
+    gravity.y[k] = own.y;
+    gravity.z[k] = own.z;
+  }
+  a.gravity = make_tile_vector(spread_own(gravity.x), spread_own(gravity.y), spread_own(gravity.z));
+#endif
 #endif
   return a;
+}
+
+INLINE wall_sweep_t start_wall_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
+                                    __global const real* wall_loads) {
+  wall_sweep_t b = {0};
+  b.walls = walls;
+  b.wall_loads = wall_loads;
+  b.x = state[FIELD_X * stride + i];
+  b.y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
+  b.z = state[FIELD_Z * stride + i];
+  const vector_t own = velocity_of(state, stride, i);
+  b.u = own.x;
+  b.v = own.y;
+  b.w = own.z;
+  b.pressure = state[FIELD_PRESSURE * stride + i];
+  b.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
+  b.gravity = gravity_at(p, walls, b.x, b.y, b.z, own);
+  b.shepard = SHEPARD_START;
+  b.clearance = p->support;
+  return b;
+}
+
+// What the sweep over the particles has found for each of the tile's own.
+typedef struct {
+  places_t force;
+#if WALL_FORCES || VISCOSITY_MORRIS
+  places_t viscous;
+#endif
+#if SHEPARD_VOLUMETRIC
+  real shepard[TILE_OWN];
+#endif
+#if NEEDS_FIT
+  bool fitting;
+  linear_fit_t fit[TILE_OWN];
+#endif
+} pair_sums_t;
+
+INLINE pair_sums_t finish_particles(const sweep_t* a) {
+  pair_sums_t s;
+  own_sums(a->force_x, s.force.x);
+  own_sums(a->force_y, s.force.y);
+  own_sums(a->force_z, s.force.z);
+#if WALL_FORCES || VISCOSITY_MORRIS
+  own_sums(a->viscous_x, s.viscous.x);
+  own_sums(a->viscous_y, s.viscous.y);
+  own_sums(a->viscous_z, s.viscous.z);
+#endif
+#if SHEPARD_VOLUMETRIC
+  own_sums(a->shepard, s.shepard);
+#endif
+#if NEEDS_FIT
+  s.fitting = a->fitting;
+  own_fits(&a->fit, s.fit);
+#endif
+  return s;
+}
+
+INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, const pair_sums_t* s, int k) {
+  b->force_x = s->force.x[k];
+  b->force_y = s->force.y[k];
+  b->force_z = s->force.z[k];
+#if WALL_FORCES || VISCOSITY_MORRIS
+  b->viscous_x = s->viscous.x[k];
+  b->viscous_y = s->viscous.y[k];
+  b->viscous_z = s->viscous.z[k];
+#endif
+#if SHEPARD_VOLUMETRIC
+  b->shepard = s->shepard[k];
+#endif
+#if NEEDS_FIT
+  b->fitting = s->fitting;
+  b->fit = s->fit[k];
+  if (b->fitting) finish_fit(b, p);
+#endif
 }
 
 #if WALL_FORCES
@@ -249,45 +353,46 @@ INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vect
 // Of ∫ W dS in 1/h, which is 3/4 on a flat wall: less is what rounding leaves of facets that end beyond the support.
 #define LEAST_TOUCH R(5.0e-6)
 
+// Whether particle i touches walls of the owner.
+INLINE bool touches(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls, __global const real* images,
+                    int owner) {
+#if GHOSTS
+  return true;
+#else
+  wall_sweep_t b = start_wall_sums(p, i, state, stride, walls, 0);
+  b.owner = owner;
+  b.looking = true;
+  sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
+  return b.touched * p->smoothing_length > LEAST_TOUCH;
+#endif
+}
+
 typedef struct {
   vector_t push, drag, place;  // pressure force, viscous force, and where they act
-  bool any;
 } owner_force_t;
 
-// What particle i does to the walls of one owner.
-INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, __global const int* cell_start, __global const real* state, int stride,
+// What particle i, the k-th of its tile, does to the walls of one owner, which it touches.
+INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int k, const pair_sums_t* sums, __global const real* state, int stride,
                                     const walls_t* walls, __global const real* images, __global const real* wall_loads, int owner) {
   owner_force_t f;
-  f.any = false;
-  sweep_t a = start_sums(p, i, state, stride, walls, wall_loads);
-  a.owner = owner;
+  wall_sweep_t b = start_wall_sums(p, i, state, stride, walls, wall_loads);
+  b.owner = owner;
+  take_pair_sums(&b, p, sums, k);
 #if GHOSTS
-  sweep_ghosts(&a, p, cell_start, images);
-  add_repulsion(&a, p, images);
-  f.push = make_vector(a.force_x, a.force_y, a.force_z);
-  f.drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
-  f.place = make_vector(a.near.x, a.near.y, a.near.z);
-  f.any = true;
+  add_repulsion(&b, p, images);
+  f.push = make_vector(b.force_x, b.force_y, b.force_z);
+  f.drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
+  f.place = make_vector(b.x, b.y, b.z);
 #else
-  a.looking = true;
-  sweep_walls(&a, p, walls, images, a.near.x, a.near.y, a.near.z);
-  if (a.touched * p->smoothing_length <= LEAST_TOUCH) return f;
-  f.any = true;
-  a.looking = false;
-  a.touched = R(0.0);
-  sweep_particles(&a, p, cell_start, images);
-#if NEEDS_FIT
-  finish_fit(&a, p);
-#endif
-  const vector_t pair_push = make_vector(a.force_x, a.force_y, a.force_z);
-  const vector_t pair_drag = make_vector(-a.viscous_x, -a.viscous_y, -a.viscous_z);
-  sweep_walls(&a, p, walls, images, a.near.x, a.near.y, a.near.z);
-  const real renormalise = R(1.0) / bounded_shepard(a.shepard);
-  const real unequal = (renormalise - R(1.0)) * a.touched / a.weight;  // each owner's part of the unequal exchange
-  f.push = mixed(renormalise, a.push, unequal, pair_push);
-  f.drag = mixed(-renormalise, a.drag, unequal, pair_drag);
-  const real inverse = R(1.0) / a.touched;
-  f.place = make_vector(a.touched_at.x * inverse, a.touched_at.y * inverse, a.touched_at.z * inverse);
+  const vector_t pair_push = make_vector(b.force_x, b.force_y, b.force_z);
+  const vector_t pair_drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
+  sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
+  const real renormalise = R(1.0) / bounded_shepard(b.shepard);
+  const real unequal = (renormalise - R(1.0)) * b.touched / b.weight;  // each owner's part of the unequal exchange
+  f.push = mixed(renormalise, b.push, unequal, pair_push);
+  f.drag = mixed(-renormalise, b.drag, unequal, pair_drag);
+  const real inverse = R(1.0) / b.touched;
+  f.place = make_vector(b.touched_at.x * inverse, b.touched_at.y * inverse, b.touched_at.z * inverse);
 #endif
   const real volume = state[FIELD_VOLUME * stride + i];
   f.push = mixed(volume, f.push, R(0.0), f.push);
@@ -295,10 +400,10 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, __g
   return f;
 }
 
-// Per run of cells of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
-__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+// Per run of slots of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
+__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
                           WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int regions, __global const int* region_values,
-                          __global const real* centres, __global real* wrenches) {
+                          __global real* wrenches) {
   const int item = get_global_id(0);
   if (item >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
@@ -306,21 +411,40 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
   while (k + 1 < regions && item >= region_values[(k + 1) * REGION_COUNT + REGION_ITEM]) ++k;
   __global const int* region = region_values + k * REGION_COUNT;
   const int owner = region[REGION_OWNER];
+  __global const real* centre = OWNER_MOTION(wall_motions, owner);
   const int in_region = item - region[REGION_ITEM];
   const int run = in_region % region[REGION_RUNS], row = in_region / region[REGION_RUNS];
-  const int first = region[REGION_CELL_X] + run * REGION_RUN;
-  const int end = min(first + REGION_RUN, region[REGION_END_X]);
-  const int line = ((region[REGION_CELL_Z] + row / region[REGION_ROWS]) * p->cells_y + region[REGION_CELL_Y] + row % region[REGION_ROWS]) * p->cells_x;
+  const int first_x = region[REGION_SLOT_X] + run * REGION_RUN;
+  const int last_x = min(first_x + REGION_RUN, region[REGION_END_X]) - 1;
+  const int row_of_run = row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
+  const int slot = first_slot(p, row_of_run, first_x, last_x);
+  const int end = slot_start[slot + last_x - first_x + 1];
   const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
   vector_t push = nothing, drag = nothing, push_torque = nothing, drag_torque = nothing;
-  for (int i = cell_start[line + first]; i < cell_start[line + end]; ++i) {
-    const owner_force_t f = force_on_owner(p, i, cell_start, state, stride, &walls, images, wall_loads, owner);
-    if (!f.any) continue;
-    const vector_t arm = make_vector(f.place.x - centres[3 * owner], f.place.y - centres[3 * owner + 1], f.place.z - centres[3 * owner + 2]);
-    push = mixed(R(1.0), push, R(1.0), f.push);
-    drag = mixed(R(1.0), drag, R(1.0), f.drag);
-    push_torque = mixed(R(1.0), push_torque, R(1.0), cross3(arm, f.push));
-    drag_torque = mixed(R(1.0), drag_torque, R(1.0), cross3(arm, f.drag));
+  for (int first = slot_start[slot]; first < end; first += TILE_OWN) {
+    bool touching[TILE_OWN];
+    bool any = false;
+    for (int own = 0; own < TILE_OWN; ++own) {
+      touching[own] = first + own < end && touches(p, first + own, state, stride, &walls, images, owner);
+      any = any || touching[own];
+    }
+    if (!any) continue;
+    sweep_t a = start_sums(p, first, end, state, stride, reach, &walls);
+#if GHOSTS
+    sweep_ghosts(&a, p, slot_start, images);
+#else
+    sweep_particles(&a, p, slot_start, images);
+#endif
+    const pair_sums_t sums = finish_particles(&a);
+    for (int own = 0; own < TILE_OWN; ++own) {
+      if (!touching[own]) continue;
+      const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, owner);
+      const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
+      push = mixed(R(1.0), push, R(1.0), f.push);
+      drag = mixed(R(1.0), drag, R(1.0), f.drag);
+      push_torque = mixed(R(1.0), push_torque, R(1.0), cross3(arm, f.push));
+      drag_torque = mixed(R(1.0), drag_torque, R(1.0), cross3(arm, f.drag));
+    }
   }
   const vector_t sums[4] = {push, drag, push_torque, drag_torque};
   for (int part = 0; part < 4; ++part) {
@@ -330,35 +454,41 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
   }
 }
 #else
-__kernel void momentum(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+__kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
                        WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global real* rates) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
-  sweep_t a = start_sums(p, i, state, stride, &walls, wall_loads);
+  sweep_t a = start_sums(p, first, count, state, stride, reach, &walls);
 #if NEEDS_FIT
+  bool near = false;
+  for (int k = 0; k < a.near.own; ++k) near = near || near_walls(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
   // the fit costs as much as all else in the loop over the particles: two loops, so that the compiler leaves it out of one
-  if (near_walls(p, &walls, a.near.x, a.near.y, a.near.z)) {
-    sweep_particles(&a, p, cell_start, images);
-    finish_fit(&a, p);
+  if (near) {
+    sweep_particles(&a, p, slot_start, images);
   } else {
     a.fitting = false;
-    sweep_particles(&a, p, cell_start, images);
+    sweep_particles(&a, p, slot_start, images);
   }
 #else
-  sweep_particles(&a, p, cell_start, images);
+  sweep_particles(&a, p, slot_start, images);
 #endif
+  const pair_sums_t sums = finish_particles(&a);
+  for (int k = 0; k < a.near.own; ++k) {
+    const int i = first + k;
+    wall_sweep_t b = start_wall_sums(p, i, state, stride, &walls, wall_loads);
+    take_pair_sums(&b, p, &sums, k);
 #if GHOSTS
-  a.clearance = R(0.0);  // the guard looks for itself
-  add_repulsion(&a, p, images);
+    b.clearance = R(0.0);  // the guard looks for itself
+    add_repulsion(&b, p, images);
 #else
-  sweep_walls(&a, p, &walls, images, a.near.x, a.near.y, a.near.z);
+    sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
 #endif
-
-  const real per_mass = R(1.0) / (bounded_shepard(a.shepard) * a.density);
-  rates[RATE_U * stride + i] = (a.viscous_x - a.force_x) * per_mass + a.gravity.x;
-  rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (a.viscous_y - a.force_y) * per_mass + a.gravity.y : R(0.0);
-  rates[RATE_W * stride + i] = (a.viscous_z - a.force_z) * per_mass + a.gravity.z;
-  rates[RATE_CLEARANCE * stride + i] = a.clearance;
+    const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
+    rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
+    rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);
+    rates[RATE_W * stride + i] = (b.viscous_z - b.force_z) * per_mass + b.gravity.z;
+    rates[RATE_CLEARANCE * stride + i] = b.clearance;
+  }
 }
 #endif

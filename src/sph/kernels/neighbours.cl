@@ -1,5 +1,6 @@
 // The neighbours as a sweep sees them: itself in the same tank, or, near an end of a periodic tank or the planes of a tank with ghosts, their images.
 // An image is x' = Q x + c. A periodic one is a shift; a ghost's is a reflection in one to three planes at right angles to each other.
+#include "tile.cl"
 #include "cells.cl"
 
 #define IMAGE_MATRIX 0            // Q, row by row
@@ -39,20 +40,23 @@ typedef struct {
 #endif
 #define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, brim_start, brim_list, brims}
 
+// Where the particles of a tile lie, or the one point, whose neighbours are wanted.
+typedef struct {
+  real x[TILE_OWN], y[TILE_OWN], z[TILE_OWN];
+} places_t;
+
 typedef struct {
   __global const real* state;
   int stride;
-  real x, y, z;  // of the particle, or the point, whose neighbours they are
+  real reach;  // the support, and how far a particle may have moved since it was sorted
+  int own;     // how many of the tile's particles count: the last tile may not be full
+  places_t places;
   const walls_t* walls;
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
   __global const real* image;
 #endif
 } neighbours_t;
-
-typedef struct {
-  real x, y, z;
-} vector_t;
 
 INLINE real dot3(vector_t a, vector_t b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 INLINE vector_t make_vector(real x, real y, real z) {
@@ -66,14 +70,17 @@ INLINE vector_t turned(__global const real* q, real x, real y, real z) {
   return make_vector(q[0] * x + q[1] * y + q[2] * z, q[3] * x + q[4] * y + q[5] * z, q[6] * x + q[7] * y + q[8] * z);
 }
 
-INLINE neighbours_t neighbours_of(__global const real* state, int stride, const walls_t* walls, real x, real y, real z) {
+INLINE vector_t velocity_of(__global const real* state, int stride, int i) {
+  return make_vector(state[FIELD_U * stride + i], DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0), state[FIELD_W * stride + i]);
+}
+
+INLINE neighbours_t no_neighbours(__global const real* state, int stride, real reach, const walls_t* walls) {
   neighbours_t n;
   n.state = state;
   n.stride = stride;
+  n.reach = reach;
+  n.own = TILE_OWN;
   n.walls = walls;
-  n.x = x;
-  n.y = y;
-  n.z = z;
 #if GHOSTS
   n.mirrored = false;
   n.image = 0;
@@ -81,9 +88,33 @@ INLINE neighbours_t neighbours_of(__global const real* state, int stride, const 
   return n;
 }
 
-INLINE vector_t neighbour_velocity(const neighbours_t* n, int j) {
-  const real u = n->state[FIELD_U * n->stride + j], w = n->state[FIELD_W * n->stride + j];
-  const real v = DIMENSIONS == 3 ? n->state[FIELD_V * n->stride + j] : R(0.0);
+// Of the particles from `first` on, TILE_OWN or as many as there are before `end`.
+INLINE neighbours_t neighbours_of(__global const real* state, int stride, real reach, const walls_t* walls, int first, int end) {
+  neighbours_t n = no_neighbours(state, stride, reach, walls);
+  n.own = min(TILE_OWN, end - first);
+  for (int k = 0; k < TILE_OWN; ++k) {
+    n.places.x[k] = state[FIELD_X * stride + first + k];
+    n.places.y[k] = DIMENSIONS == 3 ? state[FIELD_Y * stride + first + k] : R(0.0);
+    n.places.z[k] = state[FIELD_Z * stride + first + k];
+  }
+  return n;
+}
+
+// Of a point; in tiles of one.
+INLINE neighbours_t neighbours_at(__global const real* state, int stride, real reach, const walls_t* walls, real x, real y, real z) {
+  neighbours_t n = no_neighbours(state, stride, reach, walls);
+  n.places.x[0] = x;
+  n.places.y[0] = y;
+  n.places.z[0] = z;
+  return n;
+}
+
+// A field of the candidates from j on.
+INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_values(n->state + field * n->stride, j); }
+
+INLINE tile_vector_t neighbour_velocity(const neighbours_t* n, int j) {
+  const tile u = near_field(n, FIELD_U, j), w = near_field(n, FIELD_W, j);
+  const tile v = DIMENSIONS == 3 ? near_field(n, FIELD_V, j) : (tile)(R(0.0));
 #if GHOSTS
   if (n->mirrored) {
     const vector_t t = turned(n->image + IMAGE_VELOCITY, u, v, w);
@@ -91,31 +122,38 @@ INLINE vector_t neighbour_velocity(const neighbours_t* n, int j) {
     return make_vector(t.x + b[0], t.y + b[1], t.z + b[2]);
   }
 #endif
-  return make_vector(u, v, w);
+  return make_tile_vector(u, v, w);
 }
 
-// r: of the neighbour from (x, y, z). A ghost lies deeper or higher than what it mirrors, by as much hydrostatic pressure.
-INLINE real neighbour_pressure(const neighbours_t* n, __constant const parameters_t* p, int j, real rx, real ry, real rz) {
-  const real pressure = n->state[FIELD_PRESSURE * n->stride + j];
+#if GHOSTS
+// From what a ghost mirrors to the ghost; r: of the ghost from the particle.
+INLINE vector_t way_to_ghost(const neighbours_t* n, int j, real rx, real ry, real rz) {
+  return make_vector(n->places.x[0] + rx - n->state[FIELD_X * n->stride + j],
+                     DIMENSIONS == 3 ? n->places.y[0] + ry - n->state[FIELD_Y * n->stride + j] : R(0.0),
+                     n->places.z[0] + rz - n->state[FIELD_Z * n->stride + j]);
+}
+#endif
+
+// r: of the neighbour from the particle. A ghost lies deeper or higher than what it mirrors, by as much hydrostatic pressure.
+INLINE tile neighbour_pressure(const neighbours_t* n, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz) {
+  const tile pressure = near_field(n, FIELD_PRESSURE, j);
 #if GHOSTS
   if (n->mirrored) {
     const real density = p->density * (R(1.0) + n->state[FIELD_COMPRESSION * n->stride + j]);
-    const real dx = n->x + rx - n->state[FIELD_X * n->stride + j], dz = n->z + rz - n->state[FIELD_Z * n->stride + j];
-    const real dy = DIMENSIONS == 3 ? n->y + ry - n->state[FIELD_Y * n->stride + j] : R(0.0);
-    return pressure + density * (p->gravity_x * dx + p->gravity_y * dy + p->gravity_z * dz);
+    const vector_t way = way_to_ghost(n, j, rx, ry, rz);
+    return pressure + density * (p->gravity_x * way.x + p->gravity_y * way.y + p->gravity_z * way.z);
   }
 #endif
   return pressure;
 }
 
 // A ghost's compression, by the same hydrostatics, linearised.
-INLINE real neighbour_compression(const neighbours_t* n, __constant const parameters_t* p, int j, real rx, real ry, real rz) {
-  const real compression = n->state[FIELD_COMPRESSION * n->stride + j];
+INLINE tile neighbour_compression(const neighbours_t* n, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz) {
+  const tile compression = near_field(n, FIELD_COMPRESSION, j);
 #if GHOSTS
   if (n->mirrored) {
-    const real dx = n->x + rx - n->state[FIELD_X * n->stride + j], dz = n->z + rz - n->state[FIELD_Z * n->stride + j];
-    const real dy = DIMENSIONS == 3 ? n->y + ry - n->state[FIELD_Y * n->stride + j] : R(0.0);
-    return compression + p->hydrostatic_x * dx + p->hydrostatic_y * dy + p->hydrostatic_z * dz;
+    const vector_t way = way_to_ghost(n, j, rx, ry, rz);
+    return compression + p->hydrostatic_x * way.x + p->hydrostatic_y * way.y + p->hydrostatic_z * way.z;
   }
 #endif
   return compression;

@@ -7,7 +7,7 @@ real support;             // R = 2h
 real support_squared;     // R²
 real kernel_scale;        // α of W = α (1−q/2)⁴ (1+2q)
 real slope_scale;         // 5α/h² of F = 5α/h² (1−q/2)³
-real inverse_cell;        // 1/side of a grid cell; the side is R
+real inverse_cell;        // 1/side of a walls' cell; the side is R
 real density;             // ρ₀
 real bulk_modulus;        // ρ₀ c₀²
 real sound_speed;         // c₀
@@ -34,10 +34,16 @@ real period_x;            // of a periodic tank, else 0
 real period_y;
 real period_z;
 real rim_z;               // above it, the splash guard keeps particles over the tank
-int cells_x;              // grid dimensions, a border of one empty cell included in each
+int cells_x;              // the walls' cells, a border of one empty cell included in each direction
 int cells_y;
 int cells_z;
 int cells;                // their product
+real row_side;            // of the particles' rows along x, across
+real inverse_row;         // 1 / that
+real inverse_slot;        // 1 / length of a slot of a row
+int rows_y;               // rows, and slots of each, a border of one empty one included in each direction
+int rows_z;
+int slots_x;
 int images;               // of the tank: periodic shifts and ghosts
 real damping;             // 1/s, of the velocities: only before the start
 real repulsion;           // of ghosts, (m/s)²: short-range force by the wall

@@ -5,6 +5,13 @@
 #define REDUCE_CHUNK 256
 #define NOBODY 0x7fffffff
 
+// What the host reads after a step, at once.
+#define REPORT_STEP 0         // Δt of the next step
+#define REPORT_SPEED 1        // greatest |u|
+#define REPORT_ACCELERATION 2 // greatest |du/dt|
+#define REPORT_ALARMS 4       // ALARM_COUNT integers
+#define REPORT_IMPULSES 12    // that the guard took from the particles, IMPULSE_COUNT for each owner of walls
+
 #define WATCH_SPEED 0         // greatest |u|²
 #define WATCH_ACCELERATION 1  // greatest |du/dt|²
 #define WATCH_COUNT 2
@@ -70,9 +77,9 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
   alarms[chunk * ALARM_COUNT + ALARM_SHEPARD] = bounded;
 }
 
-// time_step: 0 Δt of the next step, 1 greatest speed, 2 greatest acceleration.
-__kernel void watch_total(__constant const parameters_t* p, int chunks, __global const real* watches, __global const int* alarms,
-                          __global real* time_step, __global int* alarm) {
+// longest: bound on Δt from what moves besides the fluid, s.
+__kernel void watch_total(__constant const parameters_t* p, int chunks, __global const real* watches, __global const int* alarms, real longest,
+                          __global real* report) {
   if (get_global_id(0) != 0) return;
   real speed = R(0.0), acceleration = R(0.0);
   int sums[ALARM_COUNT] = {0, 0, 0, 0, 0, 0};
@@ -84,6 +91,7 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
     first = min(first, alarms[chunk * ALARM_COUNT + ALARM_FIRST]);
   }
   sums[ALARM_FIRST] = first;
+  __global int* alarm = (__global int*)(report + REPORT_ALARMS);
   for (int k = 0; k < ALARM_COUNT; ++k) alarm[k] = sums[k];
   speed = sqrt(speed);
   acceleration = sqrt(acceleration);
@@ -91,9 +99,9 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
   real step = p->courant * h / (p->sound_speed + speed);
   step = fmin(step, p->courant * sqrt(h / fmax(acceleration, R(1.0e-20))));
   step = fmin(step, p->viscous_time);
-  time_step[0] = step;
-  time_step[1] = speed;
-  time_step[2] = acceleration;
+  report[REPORT_STEP] = fmin(step, longest);
+  report[REPORT_SPEED] = speed;
+  report[REPORT_ACCELERATION] = acceleration;
 }
 
 #define ENERGY_KINETIC 0
@@ -155,7 +163,7 @@ __kernel void packing_total(int count, __global const real* rates, int stride, _
 
 // Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner: N·s, N·m·s.
 __kernel void guard_chunks(int count, __global const real* state, int stride, __global const int* guard_hits, __global const int* takers,
-                           __global const real* lost, int owners, __global const real* centres, __global real* impulses) {
+                           __global const real* lost, int owners, __global const real* motions, __global real* impulses) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
   __global real* sums = impulses + chunk * owners * IMPULSE_COUNT;
@@ -168,8 +176,9 @@ __kernel void guard_chunks(int count, __global const real* state, int stride, __
       if (owner == NO_OWNER) continue;
       __global const real* velocity = lost + 3 * slot * stride;
       const real px = mass * velocity[i], py = mass * velocity[stride + i], pz = mass * velocity[2 * stride + i];
-      const real rx = state[FIELD_X * stride + i] - centres[3 * owner], ry = state[FIELD_Y * stride + i] - centres[3 * owner + 1],
-                 rz = state[FIELD_Z * stride + i] - centres[3 * owner + 2];
+      __global const real* centre = OWNER_MOTION(motions, owner);
+      const real rx = state[FIELD_X * stride + i] - centre[0], ry = state[FIELD_Y * stride + i] - centre[1],
+                 rz = state[FIELD_Z * stride + i] - centre[2];
       __global real* own = sums + owner * IMPULSE_COUNT;
       own[0] += px;
       own[1] += py;
@@ -181,12 +190,12 @@ __kernel void guard_chunks(int count, __global const real* state, int stride, __
   }
 }
 
-__kernel void guard_totals(int values, int chunks, __global const real* impulses, __global real* totals) {
+__kernel void guard_totals(int values, int chunks, __global const real* impulses, __global real* report) {
   const int k = get_global_id(0);
   if (k >= values) return;
   real sum = R(0.0), rest = R(0.0);
   for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(impulses[chunk * values + k], &sum, &rest);
-  totals[k] = sum;
+  report[REPORT_IMPULSES + k] = sum;
 }
 
 // Force and torque on each owner of walls, from what the runs of cells of its region do to it.

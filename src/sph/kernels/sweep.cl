@@ -1,109 +1,279 @@
 // The one neighbour loop. A sweep is a file that defines, before it includes this one,
-//   sweep_t                                               its inputs, its own values and its sums; `near` are the neighbours,
-//   SWEEP_PARTICLES, SWEEP_WALLS                          which of the two loops it calls,
-//   add_particle(sweep_t*, p, j, rx, ry, rz, r2)          one neighbour j at (rx, ry, rz) = x_j − x, for every candidate of the cells (W and F vanish
-//                                                         beyond the support, so no branch is needed, and the compiler vectorises the loop),
-//   add_wall(sweep_t*, p, s, x, y, z)                     one wall element or facet that may be within the support of (x, y, z),
-//   SWEEP_BRIMS, add_brim(sweep_t*, p, s, x, y, z)        in cases with thin plates, if the free edges of these matter to it,
-// and whose kernel starts the sums, calls the loop, and finishes them. Particles and elements are sorted by cell, x fastest: three cells in a row are
-// one contiguous run. Cells have the support's size. Facets are larger than cells: each cell has a list of those within the support of it.
+//   SWEEP_PARTICLES   if it goes over particles:
+//     sweep_t                                      its inputs, the tile's own values and its sums; `near` are the neighbours,
+//     add_particle(sweep_t*, p, j, rx, ry, rz, r2) the candidates of a tile from j on, at (rx, ry, rz) = x_j − x, for every candidate of the rows (W and F
+//                                                  vanish beyond the support, so no branch is needed, and what does not count is put far away),
+//   SWEEP_WALLS       if it goes over walls, which is done for one particle at a time:
+//     wall_sweep_t                                 its inputs, own values and sums,
+//     add_wall(wall_sweep_t*, p, s, x, y, z)       one wall element or facet that may be within the support of (x, y, z),
+//     SWEEP_BRIMS, add_brim(wall_sweep_t*, p, s, x, y, z)  in cases with thin plates, if the free edges of these matter to it,
+// and whose kernel starts the sums, calls the loop, and finishes them.
+// Particles lie in memory along rows, slot after slot. Of each row near a tile only the slots within reach of it are gone through: one contiguous run.
+// Elements are sorted by cells of the support's size, x fastest: three cells in a row are one contiguous run. Facets are larger than cells: each cell has a
+// list of those within the support of it.
 #ifdef SWEEP_PARTICLES
-// The neighbours around (x, y, z), which for an image is not where the particle itself lies.
-INLINE void sweep_cells(sweep_t* sums, __constant const parameters_t* p, __global const int* cell_start, real x, real y, real z) {
-  const int stride = sums->near.stride;
-  __global const real* state = sums->near.state;
-  __global const real* xs = state + FIELD_X * stride;
+#define FAR_AWAY R(1.0e12)
+
+typedef struct {
+  real x0, x1, y0, y1, z0, z1;
+} box_t;
+
+INLINE box_t box_of_place(const places_t* places, int k) {
+  const box_t box = {places->x[k], places->x[k], places->y[k], places->y[k], places->z[k], places->z[k]};
+  return box;
+}
+
+INLINE box_t box_of_places(const places_t* places, int own) {
+  box_t box = box_of_place(places, 0);
+  for (int k = 1; k < TILE_OWN; ++k) {
+    if (k >= own) continue;
+    box.x0 = fmin(box.x0, places->x[k]);
+    box.x1 = fmax(box.x1, places->x[k]);
+    box.y0 = fmin(box.y0, places->y[k]);
+    box.y1 = fmax(box.y1, places->y[k]);
+    box.z0 = fmin(box.z0, places->z[k]);
+    box.z1 = fmax(box.z1, places->z[k]);
+  }
+  return box;
+}
+
+// The rows within reach of a box, from y0 to y1 and z0 to z1.
+typedef struct {
+  int y0, y1, z0, z1;
+} rows_t;
+
+INLINE rows_t rows_near(__constant const parameters_t* p, const box_t* box, real reach) {
+  rows_t rows;
 #if DIMENSIONS == 3
-  __global const real* ys = state + FIELD_Y * stride;
-#endif
-  __global const real* zs = state + FIELD_Z * stride;
-#if THIN_WALLS
-  const bool screened = has_barriers(p, sums->near.walls, x, y, z) || has_barriers(p, sums->near.walls, sums->near.x, sums->near.y, sums->near.z);
-#endif
-  const int centre = cell_index(p, x, y, z);
-  const int layer = DIMENSIONS == 3 ? p->cells_x * p->cells_y : p->cells_x;
-  for (int dz = -1; dz <= 1; ++dz) {
-#if DIMENSIONS == 3
-    for (int dy = -1; dy <= 1; ++dy) {
-      const int row = centre + dz * layer + dy * p->cells_x;
+  rows.y0 = cell_coordinate(box->y0 - reach, p->inverse_row, p->rows_y);
+  rows.y1 = cell_coordinate(box->y1 + reach, p->inverse_row, p->rows_y);
 #else
-    {
-      const int row = centre + dz * layer;
+  rows.y0 = rows.y1 = 0;
 #endif
-      const int end = cell_start[row + 2];
+  rows.z0 = cell_coordinate(box->z0 - reach, p->inverse_row, p->rows_z);
+  rows.z1 = cell_coordinate(box->z1 + reach, p->inverse_row, p->rows_z);
+  return rows;
+}
+
+// What lies beyond the grid is in its outermost rows and slots: it counts as lying on the grid's border, which is never farther from anything.
+INLINE box_t within_grid(__constant const parameters_t* p, box_t box) {
+  const real top = (real)(p->rows_z - 2) * p->row_side;
+  box.z0 = fmin(fmax(box.z0, R(0.0)), top);
+  box.z1 = fmin(fmax(box.z1, R(0.0)), top);
+#if DIMENSIONS == 3
+  const real width = (real)(p->rows_y - 2) * p->row_side;
+  box.y0 = fmin(fmax(box.y0, R(0.0)), width);
+  box.y1 = fmin(fmax(box.y1, R(0.0)), width);
+#endif
+  return box;
+}
+
+// How far the box is from row r in one direction.
+INLINE real gap_to_row(__constant const parameters_t* p, int r, real low, real high) {
+  const real begin = (real)(r - 1) * p->row_side;
+  return fmax(fmax(begin - high, low - (begin + p->row_side)), R(0.0));
+}
+
+typedef struct {
+  int begin, end;  // particles
+} run_t;
+
+// The particles of a row that may be within reach of the box; none if end ≤ begin.
+INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* slot_start, const box_t* box, real reach, int ry, int rz) {
+  const real gap_z = gap_to_row(p, rz, box->z0, box->z1);
+#if DIMENSIONS == 3
+  const real gap_y = gap_to_row(p, ry, box->y0, box->y1);
+#else
+  const real gap_y = R(0.0);
+#endif
+  const real left = reach * reach - gap_y * gap_y - gap_z * gap_z;
+  const real half_length = sqrt(fmax(left, R(0.0)));
+  const int first = slot_coordinate(p, box->x0 - half_length), last = slot_coordinate(p, box->x1 + half_length);
+  const int slot = first_slot(p, row_index(p, ry, rz), first, last);
+  run_t run;
+  run.begin = slot_start[slot];
+  run.end = left > R(0.0) ? slot_start[slot + last - first + 1] : run.begin;
+  return run;
+}
+
+#if TILE_LANES == 1
+INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run, real x, real y, real z) {
+  const neighbours_t* near = &sums->near;
+  __global const real* xs = near->state + FIELD_X * near->stride;
+#if DIMENSIONS == 3
+  __global const real* ys = near->state + FIELD_Y * near->stride;
+#endif
+  __global const real* zs = near->state + FIELD_Z * near->stride;
 #if THIN_WALLS
-      if (screened) {
-        for (int j = cell_start[row - 1]; j < end; ++j) {
-          const real rx = xs[j] - x;
-          const real ry = DIMENSIONS == 3 ? state[FIELD_Y * stride + j] - y : R(0.0);
-          const real rz = zs[j] - z;
-          const real r2 = rx * rx + ry * ry + rz * rz;
-          // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
-          if (r2 >= p->support_squared || hidden_in_cell(p, sums->near.walls, x, y, z, rx, ry, rz) ||
-              hidden_in_cell(p, sums->near.walls, sums->near.x, sums->near.y, sums->near.z, rx, ry, rz))
-            continue;
-          add_particle(sums, p, j, rx, ry, rz, r2);
-        }
+  const real own_x = near->places.x[0], own_y = near->places.y[0], own_z = near->places.z[0];
+  if (has_barriers(p, near->walls, x, y, z) || has_barriers(p, near->walls, own_x, own_y, own_z)) {
+    for (int j = run.begin; j < run.end; ++j) {
+      const real rx = xs[j] - x;
+      const real ry = DIMENSIONS == 3 ? near->state[FIELD_Y * near->stride + j] - y : R(0.0);
+      const real rz = zs[j] - z;
+      const real r2 = rx * rx + ry * ry + rz * rz;
+      // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
+      if (r2 >= p->support_squared || hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz) ||
+          hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
         continue;
-      }
+      add_particle(sums, p, j, rx, ry, rz, r2);
+    }
+    return;
+  }
 #endif
-      for (int j = cell_start[row - 1]; j < end; ++j) {
-        const real rx = xs[j] - x;
+  for (int j = run.begin; j < run.end; ++j) {
+    const real rx = xs[j] - x;
 #if DIMENSIONS == 3
-        const real ry = ys[j] - y;
+    const real ry = ys[j] - y;
 #else
-        const real ry = R(0.0);
+    const real ry = R(0.0);
 #endif
-        const real rz = zs[j] - z;
-        const real r2 = rx * rx + ry * ry + rz * rz;
+    const real rz = zs[j] - z;
+    const real r2 = rx * rx + ry * ry + rz * rz;
 #if GHOSTS
-        if (sums->near.mirrored) {
-          const vector_t r = turned(sums->near.image + IMAGE_MATRIX, rx, ry, rz);
-          add_particle(sums, p, j, r.x, r.y, r.z, r2);
-          continue;
-        }
+    if (sums->near.mirrored) {
+      const vector_t r = turned(sums->near.image + IMAGE_MATRIX, rx, ry, rz);
+      add_particle(sums, p, j, r.x, r.y, r.z, r2);
+      continue;
+    }
 #endif
-        add_particle(sums, p, j, rx, ry, rz, r2);
-      }
+    add_particle(sums, p, j, rx, ry, rz, r2);
+  }
+}
+
+// The neighbours around `at`, which for an image is not where the particle itself lies.
+INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
+  const box_t box = within_grid(p, box_of_place(at, 0));
+  const rows_t rows = rows_near(p, &box, sums->near.reach);
+  for (int rz = rows.z0; rz <= rows.z1; ++rz)
+    for (int ry = rows.y0; ry <= rows.y1; ++ry) {
+      const run_t run = run_of_row(p, slot_start, &box, sums->near.reach, ry, rz);
+      sweep_run(sums, p, run, at->x[0], at->y[0], at->z[0]);
+    }
+}
+#else
+#define MOST_RUNS 64
+#define MOST_ROWS 64  // near a tile whose particles lie together
+
+// All rows near the box. First a list of runs, then the candidates of all of them in one loop, which a processor foresees the end of: runs are short.
+INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, tile x, tile y, tile z) {
+  const neighbours_t* near = &sums->near;
+  const real reach = near->reach;
+  const rows_t rows = rows_near(p, &box, reach);
+  int begins[MOST_RUNS], ends[MOST_RUNS];  // begins: less what the runs before have gone through
+  int ry = rows.y0, rz = rows.z0;
+  while (rz <= rows.z1) {
+    int runs = 0, blocks = 0;
+    while (rz <= rows.z1 && runs < MOST_RUNS) {
+      const run_t run = run_of_row(p, slot_start, &box, reach, ry, rz);
+      const int length = run.end - run.begin;
+      begins[runs] = run.begin - TILE_NEAR * blocks;
+      ends[runs] = run.end;
+      runs += length > 0 ? 1 : 0;
+      blocks += (length + TILE_NEAR - 1) / TILE_NEAR;
+      const bool last = ry == rows.y1;
+      ry = last ? rows.y0 : ry + 1;
+      rz += last ? 1 : 0;
+    }
+    int r = 0;
+    for (int block = 0; block < blocks; ++block) {
+      const int j = begins[r] + TILE_NEAR * block;
+      const int left = ends[r] - j;
+      const tile rx = near_field(near, FIELD_X, j) - x;
+#if DIMENSIONS == 3
+      const tile ry_ = near_field(near, FIELD_Y, j) - y;
+#else
+      const tile ry_ = (tile)(R(0.0));
+#endif
+      const tile rz_ = near_field(near, FIELD_Z, j) - z;
+      const tile r2 = rx * rx + ry_ * ry_ + rz_ * rz_;
+      // beyond the run's end lie particles of other slots
+      add_particle(sums, p, j, rx, ry_, rz_, NEAR_LANES < (tile)((real)left) ? r2 : (tile)(FAR_AWAY));
+      r += left <= TILE_NEAR ? 1 : 0;
     }
   }
 }
 
+// The neighbours around `at`, which for images is not where the particles themselves lie. Where the tile's particles do not lie together, in spray, each
+// is gone round by itself, with the others far away.
+INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
+  const tile x = spread_own(at->x), y = spread_own(at->y), z = spread_own(at->z);
+#if TILE_OWN == 1
+  sweep_box(sums, p, slot_start, within_grid(p, box_of_place(at, 0)), x, y, z);
+#else
+  const int own = sums->near.own;
+  const box_t all = within_grid(p, box_of_places(at, own));
+  const rows_t rows = rows_near(p, &all, sums->near.reach);
+  const bool together = (rows.y1 - rows.y0 + 1) * (rows.z1 - rows.z0 + 1) <= MOST_ROWS && all.x1 - all.x0 < R(2.0) * p->support;
+  const int parts = together ? 1 : own;
+  for (int part = 0; part < parts; ++part) {
+    box_t box = all;
+    tile at_x = x;
+    if (!together) {
+      box = within_grid(p, box_of_place(at, part));
+      at_x = OWN_LANES == (tile)((real)part) ? x : (tile)(FAR_AWAY);
+    }
+    sweep_box(sums, p, slot_start, box, at_x, y, z);
+  }
+#endif
+}
+#endif
+
+#if IMAGES
+// Whether the image's neighbours can be within the support of any particle of the tile; and where they all lie as the image's originals see them.
+INLINE bool places_near_image(__constant const parameters_t* p, const neighbours_t* near, __global const real* image) {
+  bool any = false;
+  for (int k = 0; k < TILE_OWN; ++k)
+    any = any || (k < near->own && near_image(p, image, near->places.x[k], near->places.y[k], near->places.z[k]));
+  return any;
+}
+
+INLINE places_t places_seen_by_image(__global const real* image, const places_t* places) {
+  places_t seen;
+  for (int k = 0; k < TILE_OWN; ++k) {
+    const vector_t v = seen_by_image(image, places->x[k], places->y[k], places->z[k]);
+    seen.x[k] = v.x;
+    seen.y[k] = v.y;
+    seen.z[k] = v.z;
+  }
+  return seen;
+}
+#endif
+
 #if GHOSTS
 // The ghosts alone.
-INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __global const int* cell_start, __global const real* images) {
-  const real x = sums->near.x, y = sums->near.y, z = sums->near.z;
+INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   for (int k = 0; k < p->images; ++k) {
     __global const real* image = images + k * IMAGE_COUNT;
-    if (image[IMAGE_MIRRORED] < R(0.5) || !near_image(p, image, x, y, z)) continue;
-    const vector_t seen = seen_by_image(image, x, y, z);
+    if (image[IMAGE_MIRRORED] < R(0.5) || !places_near_image(p, &sums->near, image)) continue;
+    const places_t seen = places_seen_by_image(image, &sums->near.places);
     sums->near.mirrored = true;
     sums->near.image = image;
-    sweep_cells(sums, p, cell_start, seen.x, seen.y, seen.z);
+    sweep_rows(sums, p, slot_start, &seen);
     sums->near.mirrored = false;
   }
 }
 #endif
 
-INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* cell_start, __global const real* images) {
-  const real x = sums->near.x, y = sums->near.y, z = sums->near.z;
-  sweep_cells(sums, p, cell_start, x, y, z);
+INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
+  const places_t own = sums->near.places;
+  sweep_rows(sums, p, slot_start, &own);
 #if IMAGES
   for (int k = 0; k < p->images; ++k) {
     __global const real* image = images + k * IMAGE_COUNT;
-    if (image[IMAGE_MIRRORED] > R(0.5) || !near_image(p, image, x, y, z)) continue;
-    const vector_t seen = seen_by_image(image, x, y, z);
-    sweep_cells(sums, p, cell_start, seen.x, seen.y, seen.z);
+    if (image[IMAGE_MIRRORED] > R(0.5) || !places_near_image(p, &sums->near, image)) continue;
+    const places_t seen = places_seen_by_image(image, &own);
+    sweep_rows(sums, p, slot_start, &seen);
   }
 #endif
 #if GHOSTS
-  sweep_ghosts(sums, p, cell_start, images);
+  sweep_ghosts(sums, p, slot_start, images);
 #endif
 }
 #endif
 
 #ifdef SWEEP_WALLS
-INLINE void sweep_wall_cells(sweep_t* sums, __constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
+INLINE void sweep_wall_cells(wall_sweep_t* sums, __constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
   const int centre = cell_index(p, x, y, z);
 #if FACETS
   const int end = walls->start[centre + 1];
@@ -133,7 +303,7 @@ INLINE void sweep_wall_cells(sweep_t* sums, __constant const parameters_t* p, co
 #endif
 }
 
-INLINE void sweep_walls(sweep_t* sums, __constant const parameters_t* p, const walls_t* walls, __global const real* images, real x, real y, real z) {
+INLINE void sweep_walls(wall_sweep_t* sums, __constant const parameters_t* p, const walls_t* walls, __global const real* images, real x, real y, real z) {
   sweep_wall_cells(sums, p, walls, x, y, z);
 #if IMAGES
   for (int k = 0; k < p->images; ++k) {

@@ -1,4 +1,4 @@
-// The fluid's pressure on each wall element, zero where no fluid is near.
+// The fluid's pressure on each wall element, zero where no fluid is near. Built for tiles of one point.
 #include "walls.cl"
 #include "linear_fit.cl"
 #define SWEEP_PARTICLES
@@ -6,17 +6,15 @@
 typedef struct {
   neighbours_t near;
   vector_t gravity;  // less the wall's acceleration
-  linear_fit_t fit;
+  tile_fit_t fit;
 } sweep_t;
 
-INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, real rx, real ry, real rz, real r2) {
-  __global const real* state = a->near.state;
-  const int n = a->near.stride;
-  const real weight = kernel_value(p, sqrt(r2)) * state[FIELD_VOLUME * n + j];
-  const real density = p->density * (R(1.0) + state[FIELD_COMPRESSION * n + j]);
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile weight = kernel_values(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile density = p->density * (R(1.0) + near_field(&a->near, FIELD_COMPRESSION, j));
   // r = x_j − x_s
-  const real head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
-  add_to_fit(&a->fit, weight, state[FIELD_PRESSURE * n + j] - density * head, rx, ry, rz);
+  const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
+  add_to_fit(&a->fit, weight, near_field(&a->near, FIELD_PRESSURE, j) - density * head, rx, ry, rz);
 }
 
 #include "sweep.cl"
@@ -24,7 +22,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, re
 // Less than this share of the full kernel sum and an element counts as dry: its average would be one droplet's.
 #define DRY R(0.01)
 
-__kernel void wall_loads(__constant const parameters_t* p, int count, __global const int* cell_start, __global const real* state, int stride,
+__kernel void wall_loads(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
                          WALL_ARGUMENTS, __global const real* images, __global real* loads) {
   const int s = get_global_id(0);
   if (s >= count) return;
@@ -34,13 +32,15 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
 #if THIN_WALLS
   // off a thin wall, to its own side, or it would see both
   const real lift = -R(1.0e-3) * p->spacing;
-  a.near = neighbours_of(state, stride, &walls, x + lift * wall_fields[WALL_NORMAL_X * wall_stride + s], y + lift * wall_fields[WALL_NORMAL_Y * wall_stride + s],
+  a.near = neighbours_at(state, stride, reach, &walls, x + lift * wall_fields[WALL_NORMAL_X * wall_stride + s], y + lift * wall_fields[WALL_NORMAL_Y * wall_stride + s],
                          z + lift * wall_fields[WALL_NORMAL_Z * wall_stride + s]);
 #else
-  a.near = neighbours_of(state, stride, &walls, x, y, z);
+  a.near = neighbours_at(state, stride, reach, &walls, x, y, z);
 #endif
   a.gravity = gravity_at_wall(p, &walls, s, x, y, z, wall_velocity(&walls, s, make_vector(R(0.0), R(0.0), R(0.0)), x, y, z));
-  sweep_particles(&a, p, cell_start, images);
-  const bool wet = a.fit.weight > DRY;
-  loads[s] = wet ? fitted_plane(p, &a.fit, make_vector(R(0.0), R(0.0), R(0.0))).value : R(0.0);
+  sweep_particles(&a, p, slot_start, images);
+  linear_fit_t fit;
+  own_fits(&a.fit, &fit);
+  const bool wet = fit.weight > DRY;
+  loads[s] = wet ? fitted_plane(p, &fit, make_vector(R(0.0), R(0.0), R(0.0))).value : R(0.0);
 }

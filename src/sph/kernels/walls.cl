@@ -13,6 +13,13 @@ typedef struct {
   bool over;         // it lies on it
 } contact_t;
 
+// W(r), for one point of a wall.
+INLINE real kernel_value(__constant const parameters_t* p, real distance) {
+  const real q = distance * p->inverse_smoothing;
+  const real t = fmax(R(1.0) - R(0.5) * q, R(0.0));
+  return p->kernel_scale * t * t * t * t * (R(1.0) + R(2.0) * q);
+}
+
 // Points this far behind a wall that they stand over count as lying on its fluid side: rounding and the guard's own tolerance; far above the
 // float32 resolution of the coordinates, and γ is continuous across the plane.
 #define BEHIND_TOLERANCE R(0.25)  // of the spacing
@@ -211,12 +218,7 @@ INLINE real bounded_shepard(real shepard) {
 #define SHEPARD_START R(1.0)
 #endif
 
-// First the tank's frame, in which the fluid is solved: gravity less the acceleration of the frame's origin, angular velocity, angular acceleration, and the
-// origin itself.
-#define FRAME_COUNT 12
-// Then, of each owner of walls: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
-#define MOTION_COUNT 18
-#define MOTION_OF(walls, s) ((walls)->motions + FRAME_COUNT + MOTION_COUNT * (int)WALL_FIELD(walls, WALL_OWNER, s))
+#define MOTION_OF(walls, s) OWNER_MOTION((walls)->motions, (int)WALL_FIELD(walls, WALL_OWNER, s))
 
 INLINE vector_t motion_vector(__global const real* motion, int which) { return make_vector(motion[3 * which], motion[3 * which + 1], motion[3 * which + 2]); }
 

@@ -1,0 +1,33 @@
+// What the neighbour loop goes through: per particle, its true pairs, within the support and itself left out, and all of its candidates.
+#include "walls.cl"
+#define SWEEP_PARTICLES
+
+typedef struct {
+  neighbours_t near;
+  tile within, candidates;
+} sweep_t;
+
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  a->within += r2 < (tile)(p->support_squared) ? (tile)(R(1.0)) : (tile)(R(0.0));
+  a->candidates += R(1.0);
+}
+
+#include "sweep.cl"
+
+// counts: the pairs of each particle, and then their candidates: all whose distance was found, those of a vector's lanes that go to waste among them.
+__kernel void pairs(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+                    WALL_ARGUMENTS, __global const real* images, __global int* counts) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
+  const walls_t walls = WALLS_OF_ARGUMENTS;
+  sweep_t a = {0};
+  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  sweep_particles(&a, p, slot_start, images);
+  real within[TILE_OWN], candidates[TILE_OWN];
+  own_sums(a.within, within);
+  own_sums(a.candidates, candidates);
+  for (int k = 0; k < a.near.own; ++k) {
+    counts[first + k] = (int)within[k] - 1;  // it is its own candidate, once
+    counts[count + first + k] = (int)candidates[k];
+  }
+}

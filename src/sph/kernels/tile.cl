@@ -1,0 +1,123 @@
+// The neighbour loop goes through tiles: TILE_OWN particles that lie together, each with TILE_NEAR candidates at a time, as one vector. On a CPU that fills
+// its vector registers: candidates alone in them would have to be summed across at the end of every short run of cells, and particles alone would be too
+// many to lie together. Elsewhere a tile is one particle and one candidate.
+#include "common.cl"
+
+#ifndef TILE_OWN
+#define TILE_OWN 1
+#define TILE_NEAR 1
+#endif
+#define TILE_LANES (TILE_OWN * TILE_NEAR)
+
+#if TILE_LANES == 1
+typedef real tile;
+#elif USE_DOUBLE && TILE_LANES == 4
+typedef double4 tile;
+#elif USE_DOUBLE && TILE_LANES == 8
+typedef double8 tile;
+#elif TILE_LANES == 4
+typedef float4 tile;
+#elif TILE_LANES == 8
+typedef float8 tile;
+#elif TILE_LANES == 16
+typedef float16 tile;
+#endif
+
+// spread_own(v): the value of each own particle, once for each candidate; near_values(v, j): of the candidates from j on, once for each own particle.
+// NEAR_LANES and OWN_LANES: which candidate and which own particle each lane has. own_sums: over the candidates, of each own particle.
+#if TILE_LANES == 1
+INLINE tile spread_own(const real* v) { return v[0]; }
+INLINE tile own_values(__global const real* v, int i) { return v[i]; }
+INLINE tile near_values(__global const real* v, int j) { return v[j]; }
+INLINE void own_sums(tile a, real* sums) { sums[0] = a; }
+#define NEAR_LANES R(0.0)
+#define OWN_LANES R(0.0)
+
+#elif TILE_OWN == 4 && TILE_NEAR == 4
+INLINE tile spread_own(const real* v) { return vload4(0, v).s0000111122223333; }
+INLINE tile own_values(__global const real* v, int i) { return vload4(0, v + i).s0000111122223333; }
+INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j).s0123012301230123; }
+INLINE void own_sums(tile a, real* sums) { vstore4((a.s048c + a.s159d) + (a.s26ae + a.s37bf), 0, sums); }
+#define NEAR_LANES (tile)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)
+#define OWN_LANES (tile)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
+
+#elif TILE_OWN == 2 && TILE_NEAR == 4
+INLINE tile spread_own(const real* v) { return vload2(0, v).s00001111; }
+INLINE tile own_values(__global const real* v, int i) { return vload2(0, v + i).s00001111; }
+INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j).s01230123; }
+INLINE void own_sums(tile a, real* sums) { vstore2((a.s04 + a.s15) + (a.s26 + a.s37), 0, sums); }
+#define NEAR_LANES (tile)(0, 1, 2, 3, 0, 1, 2, 3)
+#define OWN_LANES (tile)(0, 0, 0, 0, 1, 1, 1, 1)
+
+#elif TILE_OWN == 2 && TILE_NEAR == 2
+INLINE tile spread_own(const real* v) { return vload2(0, v).s0011; }
+INLINE tile own_values(__global const real* v, int i) { return vload2(0, v + i).s0011; }
+INLINE tile near_values(__global const real* v, int j) { return vload2(0, v + j).s0101; }
+INLINE void own_sums(tile a, real* sums) { vstore2(a.s02 + a.s13, 0, sums); }
+#define NEAR_LANES (tile)(0, 1, 0, 1)
+#define OWN_LANES (tile)(0, 0, 1, 1)
+
+// of points, which need not lie together
+#elif TILE_OWN == 1
+INLINE tile spread_own(const real* v) { return (tile)(v[0]); }
+INLINE tile own_values(__global const real* v, int i) { return (tile)(v[i]); }
+#define OWN_LANES (tile)(R(0.0))
+INLINE real sum4(
+#if USE_DOUBLE
+    double4
+#else
+    float4
+#endif
+        v) {
+  return (v.s0 + v.s1) + (v.s2 + v.s3);
+}
+#if TILE_NEAR == 16
+INLINE tile near_values(__global const real* v, int j) { return vload16(0, v + j); }
+INLINE void own_sums(tile a, real* sums) { sums[0] = sum4((a.s0123 + a.s4567) + (a.s89ab + a.scdef)); }
+#define NEAR_LANES (tile)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#elif TILE_NEAR == 8
+INLINE tile near_values(__global const real* v, int j) { return vload8(0, v + j); }
+INLINE void own_sums(tile a, real* sums) { sums[0] = sum4(a.s0123 + a.s4567); }
+#define NEAR_LANES (tile)(0, 1, 2, 3, 4, 5, 6, 7)
+#else
+INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j); }
+INLINE void own_sums(tile a, real* sums) { sums[0] = sum4(a); }
+#define NEAR_LANES (tile)(0, 1, 2, 3)
+#endif
+#endif
+
+typedef struct {
+  real x, y, z;
+} vector_t;
+
+#if TILE_LANES == 1
+typedef vector_t tile_vector_t;
+#else
+typedef struct {
+  tile x, y, z;
+} tile_vector_t;
+#endif
+
+INLINE tile_vector_t make_tile_vector(tile x, tile y, tile z) {
+  tile_vector_t v = {x, y, z};
+  return v;
+}
+
+INLINE tile tile_dot(tile_vector_t a, tile_vector_t b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+INLINE tile_vector_t tile_cross(vector_t a, tile_vector_t b) {
+  return make_tile_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+// Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
+INLINE tile kernel_values(__constant const parameters_t* p, tile distance) {
+  const tile q = distance * p->inverse_smoothing;
+  const tile t = fmax(R(1.0) - R(0.5) * q, R(0.0));
+  const tile tt = t * t;
+  return p->kernel_scale * tt * tt * (R(1.0) + R(2.0) * q);
+}
+
+INLINE tile kernel_slopes(__constant const parameters_t* p, tile distance) {
+  const tile t = fmax(R(1.0) - R(0.5) * distance * p->inverse_smoothing, R(0.0));
+  return p->slope_scale * t * t * t;
+}

@@ -1,0 +1,44 @@
+#include "solver_kernels.h"
+
+namespace wavetank {
+
+SolverKernels::SolverKernels(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
+                             const Tiling& tiling, bool elements) {
+  const std::string fast = options + " -cl-fast-relaxed-math";
+  const auto kernel_of = [&](const char* file, const char* name, const std::string& own_options) {
+    return compute::Program(device, files, file, own_options).kernel(name);
+  };
+  const auto of_particles = [&](const char* file, const char* name, const std::string& own_options = "") {
+    return SweepKernel{kernel_of(file, name, fast + tiling.particles.build_options() + own_options), tiling.particles.own};
+  };
+  const auto of_points = [&](const char* file, const char* name) {
+    return SweepKernel{kernel_of(file, name, fast + tiling.points.build_options()), 1};
+  };
+  continuity = of_particles("continuity.cl", "continuity");
+  momentum = of_particles("momentum.cl", "momentum", " -DWALL_FORCES=0");
+  wall_forces = of_particles("momentum.cl", "wall_forces", " -DWALL_FORCES=1");
+  wall_forces.own = 1;  // an item is a run of slots
+  gradient = of_particles("density_gradient.cl", "density_gradient");
+  if (elements) loads = of_points("wall_loads.cl", "wall_loads");
+  packing = of_particles("packing.cl", "packing");
+  guard.kernel = kernel_of("guard.cl", "guard", options);
+  points = of_points("points.cl", "points");
+  surface = of_particles("points.cl", "surface");
+  const compute::Program time_step(device, files, "time_step.cl", options);
+  derive = time_step.kernel("derive_state");
+  predict = time_step.kernel("predict");
+  correct = time_step.kernel("correct");
+  compress = time_step.kernel("compress");
+  move_packed = time_step.kernel("move_packed");
+  const compute::Program reduce(device, files, "reduce.cl", options);
+  watch_chunks = reduce.kernel("watch_chunks");
+  watch_total = reduce.kernel("watch_total");
+  guard_chunks = reduce.kernel("guard_chunks");
+  guard_totals = reduce.kernel("guard_totals");
+  energy_chunks = reduce.kernel("energy_chunks");
+  energy_total = reduce.kernel("energy_total");
+  wrench_totals = reduce.kernel("wrench_totals");
+  packing_total = reduce.kernel("packing_total");
+}
+
+}  // namespace wavetank

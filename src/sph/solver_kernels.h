@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "tiling.h"
+#include "wavetank/compute/program.h"
+
+namespace wavetank {
+
+/// A kernel that goes over the neighbours of particles, points or walls, `own` of them an item.
+struct SweepKernel {
+  compute::Kernel kernel;
+  int own = 1;
+};
+
+/// The solver's kernels, but for those that helpers of it own.
+struct SolverKernels {
+  SolverKernels() = default;
+  /// `elements`: the walls are elements, with a pressure of their own.
+  SolverKernels(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const Tiling& tiling,
+                bool elements);
+
+  SweepKernel continuity, momentum, gradient, loads, packing, points, surface, guard, wall_forces;
+  compute::Kernel derive, predict, correct, compress, move_packed;
+  compute::Kernel watch_chunks, watch_total, guard_chunks, guard_totals, energy_chunks, energy_total, wrench_totals, packing_total;
+};
+
+}  // namespace wavetank

@@ -1,0 +1,110 @@
+#include <numeric>
+
+#include "sph_solver.h"
+
+namespace wavetank {
+template <class Real>
+struct SphSolver<Real>::DevicePoints final : PointSet {
+  DevicePoints(const compute::Device& on, const Eigen::Vector3d& grid_origin) : device(on), origin(grid_origin) {}
+
+  void set(const std::vector<Eigen::Vector3d>& points) override {
+    count = points.size();
+    std::vector<Real> values(3 * count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (int axis = 0; axis < 3; ++axis) values[axis * count + i] = static_cast<Real>(points[i][axis] - origin[axis]);
+    places.set(device, values);
+    if (results.size() < places.on_device().size()) results = Buffer(device, places.on_device().size());
+  }
+
+  compute::Device device;
+  Eigen::Vector3d origin;
+  std::size_t count = 0;
+  KeptBuffer<Real> places;
+  mutable Buffer results;
+};
+
+template <class Real>
+std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::Vector3d>& points) const {
+  auto set = std::make_unique<DevicePoints>(device_, discretisation_.origin);
+  set->set(points);
+  return set;
+}
+
+template <class Real>
+std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
+  const auto& points = dynamic_cast<const DevicePoints&>(set);
+  sweep(kernels_.points, static_cast<int>(points.count), state_, walls_, points.places.on_device(), points.results);
+  const std::vector<Real> results = points.results.download(3 * points.count);
+  std::vector<PointValue> values(points.count);
+  for (std::size_t i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
+  return values;
+}
+
+template <class Real>
+std::vector<WallWrench> SphSolver<Real>::wrenches() {
+  load_walls(state_);  // at this instant; the step found its own in its middle
+  std::vector<int> owners(centres_.size());
+  std::iota(owners.begin(), owners.end(), 0);
+  return wrenches_at(state_, owners);
+}
+
+template <class Real>
+FluidEnergies SphSolver<Real>::energies() {
+  kernels_.energy_chunks.launch(chunks_, surroundings_.parameters, count_, state_, stride_, energy_parts_);
+  kernels_.energy_total.launch(1, chunks_, energy_parts_, energy_total_);
+  const std::vector<Real> total = energy_total_.download();
+  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
+  if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
+  // from the grid's origin to the tank's floor
+  const Eigen::Vector3d floor = discretisation_.lower + Eigen::Vector3d::Constant(0.5 * discretisation_.spacing) - discretisation_.origin;
+  energies.potential += energies.mass * case_.gravity.z() * floor.z();
+  return energies;
+}
+
+template <class Real>
+FluidState SphSolver<Real>::download() {
+  const std::vector<Real> state = state_.download();
+  Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
+  sweep(kernels_.surface, count_, state_, walls_, results);
+  const std::vector<Real> surface = results.download();
+  FluidState fluid;
+  fluid.id = id_.download();
+  const auto value = [&](int f, int i) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
+  for (int i = 0; i < count_; ++i) {
+    fluid.position.push_back(Eigen::Vector3d(value(field::x, i), value(field::y, i), value(field::z, i)) + discretisation_.origin);
+    fluid.velocity.emplace_back(value(field::u, i), value(field::v, i), value(field::w, i));
+    fluid.pressure.push_back(value(field::pressure, i));
+    fluid.compression.push_back(value(field::compression, i));
+    fluid.mass.push_back(value(field::mass, i));
+    fluid.surface.push_back(surface[i] > Real(0.5) ? 1 : 0);
+    fluid.shepard.push_back(surface[stride_ + i]);
+  }
+  return fluid;
+}
+
+/// Built when it is asked for: no simulation needs it.
+template <class Real>
+PairCount SphSolver<Real>::count_pairs() {
+  const SweepKernel kernel{compute::Program(device_, sources_, "pairs.cl", options_ + tiling_.particles.build_options()).kernel("pairs"),
+                           tiling_.particles.own};
+  compute::Buffer<int> counts(device_, 2 * static_cast<std::size_t>(count_));
+  sweep(kernel, count_, state_, walls_, counts);
+  const std::vector<int> values = counts.download();
+  return {std::accumulate(values.begin(), values.begin() + count_, std::uint64_t{0}),
+          std::accumulate(values.begin() + count_, values.end(), std::uint64_t{0})};
+}
+
+template std::unique_ptr<PointSet> SphSolver<float>::make_points(const std::vector<Eigen::Vector3d>&) const;
+template std::vector<PointValue> SphSolver<float>::evaluate(const PointSet&);
+template std::vector<WallWrench> SphSolver<float>::wrenches();
+template FluidEnergies SphSolver<float>::energies();
+template FluidState SphSolver<float>::download();
+template PairCount SphSolver<float>::count_pairs();
+template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vector<Eigen::Vector3d>&) const;
+template std::vector<PointValue> SphSolver<double>::evaluate(const PointSet&);
+template std::vector<WallWrench> SphSolver<double>::wrenches();
+template FluidEnergies SphSolver<double>::energies();
+template FluidState SphSolver<double>::download();
+template PairCount SphSolver<double>::count_pairs();
+
+}  // namespace wavetank

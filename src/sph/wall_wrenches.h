@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "solver_kernels.h"
+#include "surroundings.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// Sums what the fluid does to owners of walls, over the slots about each.
+template <class Real>
+class WallWrenches {
+ public:
+  /// `boxes`: about each owner's walls at rest; `everywhere`: images bring an owner's walls to particles far from it.
+  WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid, const std::vector<Box>& boxes,
+               bool everywhere);
+
+  /// Where the owners are.
+  void set_poses(const std::vector<WallPose>& poses);
+  /// One wrench a listed owner; `loads`: the pressures of wall elements.
+  std::vector<WallWrench> find(const SolverKernels& kernels, const Surroundings<Real>& surroundings, const compute::Buffer<Real>& state,
+                               const WallArrays<Real>& walls, const compute::Buffer<Real>& loads, const std::vector<int>& owners);
+
+ private:
+  void find_regions(const std::vector<int>& owners);
+
+  compute::Device device_;
+  Discretisation discretisation_;
+  GridShape grid_;
+  std::vector<Box> boxes_;
+  bool everywhere_ = false;
+  std::vector<WallPose> poses_;
+  compute::Buffer<Real> parts_, totals_;
+  KeptBuffer<int> regions_;
+  std::vector<int> region_owners_;  ///< that the regions were found for, at the present poses; empty: for none
+  int region_items_ = 0;
+};
+
+}  // namespace wavetank
