@@ -2,7 +2,7 @@
 get_property(rooms GLOBAL PROPERTY WAVETANK_ROOMS)
 foreach(library ${rooms})
   string(REGEX REPLACE "^wavetank_" "" room ${library})
-  string(REPLACE "node_library" "node" room ${room})
+  string(REGEX REPLACE "_library$" "" room ${room})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/${room}/*_test.cpp)
   foreach(source ${sources})
     get_filename_component(name ${source} NAME_WE)
@@ -39,6 +39,9 @@ foreach(program tank_at_rest step_cost packed_particles)
     add_dependencies(tests ${program})
   endif()
 endforeach()
+
+add_test(NAME bench_wavetank_bench_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_BENCH=$<TARGET_FILE:wavetank_bench>
+  ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/bench/wavetank_bench_test.py -v)
 
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)

@@ -1,0 +1,78 @@
+// Measures how fast this machine simulates stock cases: everything but the process's own affairs is in BenchRun.
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "bench_options.h"
+#include "bench_run.h"
+#include "wavetank/common/log.h"
+#include "whole_file.h"
+
+namespace {
+
+using namespace wavetank;
+using namespace wavetank::bench;
+
+constexpr int exit_error = 2;
+constexpr int exit_signal = 128;  // plus the signal's number, as shells have it
+
+std::atomic<int> caught_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+extern "C" void on_signal(int signal_number) {
+  caught_signal = signal_number;
+  std::signal(signal_number, SIG_DFL);  // a second one ends the process at once
+}
+
+void log_warnings(LogLevel level, const std::string& line) {
+  if (level != LogLevel::info) std::fprintf(stderr, "wavetank_bench: warning: %s\n", line.c_str());
+}
+
+void list(const BenchOptions& options) {
+  const std::vector<BenchCase> cases = options.filters.empty() ? all_cases() : chosen_cases(options.filters);
+  for (const BenchCase& bench_case : cases) std::printf("%s\n", bench_case.name.c_str());
+}
+
+void print_start_up(const BenchOptions& options) {
+  std::printf("%s\n", text_of(start(make_case(case_named(options.start_up_of), options.device)).time).c_str());
+}
+
+int run(const BenchOptions& options) {
+  const std::vector<BenchCase> cases = chosen_cases(options.filters);
+  if (!options.json.empty()) check_writable(options.json);
+  const compute::DeviceInfo device = compute::choose_device(options.device);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const Report report = BenchRun(options, device, program, [] { return caught_signal != 0; }).run(cases);
+  std::printf("%s", table_of(report).c_str());
+  if (!options.json.empty()) write_whole(options.json, json_of(report));
+  return report.interrupted ? exit_signal + caught_signal : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    set_log_sink(log_warnings);
+    const BenchOptions options = read_bench_options(argc, argv);
+    switch (options.action) {
+      case BenchOptions::Action::list:
+        list(options);
+        return 0;
+      case BenchOptions::Action::start_up:
+        print_start_up(options);
+        return 0;
+      case BenchOptions::Action::run:
+        return run(options);
+      case BenchOptions::Action::nothing:
+        return 0;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wavetank_bench: %s\n", error.what());
+    return exit_error;
+  }
+  return exit_error;
+}

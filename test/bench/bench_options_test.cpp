@@ -1,0 +1,62 @@
+#include "../../src/bench/bench_options.h"
+
+#include <gtest/gtest.h>
+
+#include "../../src/bench/whole_file.h"
+#include "../common/error_of.h"
+#include "../common/scratch_directory.h"
+
+namespace wavetank::bench {
+namespace {
+
+BenchOptions read(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "wavetank_bench");
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  return read_bench_options(static_cast<int>(pointers.size()), pointers.data());
+}
+
+}  // namespace
+
+TEST(BenchOptions, ReadsEverything) {
+  const BenchOptions options =
+      read({"--filter", "3d", "--filter", "100k", "--device", "0:1", "--repeat", "7", "--json", "out.json", "--no-cold-build"});
+  EXPECT_EQ(options.action, BenchOptions::Action::run);
+  EXPECT_EQ(options.filters, (std::vector<std::string>{"3d", "100k"}));
+  EXPECT_EQ(options.device, "0:1");
+  EXPECT_EQ(options.repeats, 7);
+  EXPECT_EQ(options.json, "out.json");
+  EXPECT_FALSE(options.cold_build);
+  EXPECT_TRUE(read({}).cold_build);
+  EXPECT_EQ(read({}).repeats, 5);
+}
+
+TEST(BenchOptions, ChooseTheAction) {
+  EXPECT_EQ(read({"--list"}).action, BenchOptions::Action::list);
+  EXPECT_EQ(read({start_up_option, "spheric2_45"}).action, BenchOptions::Action::start_up);
+}
+
+TEST(BenchOptions, RefuseWhatMakesNoSense) {
+  EXPECT_NE(error_of([] { read({"--repeat", "0"}); }).find("--repeat 0"), std::string::npos);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--repeat", "-3"}, {"--repeat", "some"}, {"--json"}, {"--json", ""}, {"--nonsense"}, {"case.yaml"}})
+    EXPECT_THROW(read(arguments), Error) << arguments[0];
+}
+
+TEST(WholeFile, IsWrittenOrNot) {
+  const ScratchDirectory scratch;
+  const std::string path = scratch.write("out.json", "old");
+  check_writable(path);
+  std::ifstream before(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(before), {}), "old");
+  write_whole(path, "new");
+  std::ifstream after(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(after), {}), "new");
+  for (const std::string& wrong : {scratch.file("no/folder.json"), scratch.path().string(), std::string()}) {
+    EXPECT_THROW(check_writable(wrong), Error) << wrong;
+    EXPECT_THROW(write_whole(wrong, "x"), Error) << wrong;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 1);
+}
+
+}  // namespace wavetank::bench
