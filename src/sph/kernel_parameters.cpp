@@ -20,6 +20,7 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   p.inverse_smoothing = real(1.0 / h);
   p.support = real(d.support);
   p.support_squared = real(d.support * d.support);
+  p.inverse_support = real(1.0 / d.support);
   p.kernel_scale = real(scale);
   p.slope_scale = real(5.0 * scale / (h * h));
   p.inverse_cell = real(1.0 / d.support);

@@ -8,7 +8,7 @@ Tiling tiling_for(const compute::DeviceInfo& device, Precision precision, bool s
   // docs/performance.md has what these were chosen by
   Tiling tiling;
   tiling.rows_per_support = 2;
-  tiling.slots_per_support = 4;
+  tiling.slots_per_support = 3;
   if (device.is_gpu) return tiling;
   if (scalar) {
     tiling.rows_per_support = 1;  // the compiler's own vectors want long runs
@@ -25,7 +25,7 @@ Tiling tiling_for(const compute::DeviceInfo& device, Precision precision, bool s
     tiling.particles = {2, 2};
     tiling.points = {1, 4};
   } else {
-    tiling.rows_per_support = 1;
+    tiling.rows_per_support = 2;
   }
   return tiling;
 }

@@ -135,16 +135,16 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     if (i >= count) return;
     const vector_t own = velocity_of(state, stride, i);
 #if SHEPARD_VOLUMETRIC
-    wall_sweep_t b = {&walls, own.x, own.y, own.z, divergence[k], shepard[k]};
+    wall_sweep_t b = {&walls, own.x, own.y, own.z, p->slope_scale * divergence[k], shepard[k]};
 #else
-    wall_sweep_t b = {&walls, own.x, own.y, own.z, divergence[k], SHEPARD_START};
+    wall_sweep_t b = {&walls, own.x, own.y, own.z, p->slope_scale * divergence[k], SHEPARD_START};
 #endif
 #if !GHOSTS
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
     const real renormalise = RENORMALISE_DIVERGENCE ? R(1.0) / bounded_shepard(b.shepard) : R(1.0);
     rates[RATE_COMPRESSION * stride + i] = -(R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence * renormalise +
-                                           R(2.0) * p->density_diffusion * diffusion[k];
+                                           R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k];
     rates[RATE_SHEPARD * stride + i] = b.shepard;
   }
 }

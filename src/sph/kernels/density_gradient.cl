@@ -67,6 +67,8 @@ __kernel void density_gradient(__constant const parameters_t* p, int count, __gl
   own_sums(a.yy, yy);
   own_sums(a.yz, yz);
   own_sums(a.zz, zz);
+  const real f = p->slope_scale;
   for (int k = 0; k < a.near.own; ++k)
-    write_gradient(gradient, stride, first + k, make_vector(sum.x[k], sum.y[k], sum.z[k]), xx[k], xy[k], xz[k], yy[k], yz[k], zz[k]);
+    write_gradient(gradient, stride, first + k, make_vector(f * sum.x[k], f * sum.y[k], f * sum.z[k]), f * xx[k], f * xy[k], f * xz[k], f * yy[k],
+                   f * yz[k], f * zz[k]);
 }

@@ -323,19 +323,19 @@ INLINE pair_sums_t finish_particles(const sweep_t* a) {
 #endif
 #if NEEDS_FIT
   s.fitting = a->fitting;
-  own_fits(&a->fit, s.fit);
+  if (a->fitting) own_fits(&a->fit, s.fit);
 #endif
   return s;
 }
 
 INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, const pair_sums_t* s, int k) {
-  b->force_x = s->force.x[k];
-  b->force_y = s->force.y[k];
-  b->force_z = s->force.z[k];
+  b->force_x = p->slope_scale * s->force.x[k];
+  b->force_y = p->slope_scale * s->force.y[k];
+  b->force_z = p->slope_scale * s->force.z[k];
 #if WALL_FORCES || VISCOSITY_MORRIS
-  b->viscous_x = s->viscous.x[k];
-  b->viscous_y = s->viscous.y[k];
-  b->viscous_z = s->viscous.z[k];
+  b->viscous_x = p->slope_scale * s->viscous.x[k];
+  b->viscous_y = p->slope_scale * s->viscous.y[k];
+  b->viscous_z = p->slope_scale * s->viscous.z[k];
 #endif
 #if SHEPARD_VOLUMETRIC
   b->shepard = s->shepard[k];

@@ -1,6 +1,7 @@
-// Packing before the start: x ← x − 0.1 h² E with the zeroth-order error E = Σ_j ∇W V_j + Σ_s n W S, walls and lid in it. Positions only; the lattice is
+// Packing before the start: x ← x − 0.3 h² E with the zeroth-order error E = Σ_j ∇W V_j + Σ_s n W S, walls and lid in it. Positions only; the lattice is
 // not an equilibrium of the boundary integrals, and would ring the tank.
 #include "walls.cl"
+#define STEP R(0.3)  // of h²: half of where the iteration still converges; with smaller steps it goes the same way, only slower
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 #define SWEEP_BRIMS
@@ -60,11 +61,11 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   own_sums(a.error_z, error.z);
   const real h = p->smoothing_length;
   for (int k = 0; k < a.near.own; ++k) {
-    wall_sweep_t b = {&walls, error.x[k], error.y[k], error.z[k], p->support};
+    wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);  // with ghosts: the lid and what the guard needs
     const real size = sqrt(b.error_x * b.error_x + b.error_y * b.error_y + b.error_z * b.error_z);
     // no further than a tenth of the spacing at once: on a coarse curved wall E is large at first
-    const real factor = fmin(R(0.1) * h * h, R(0.1) * p->spacing / fmax(size, R(1.0e-30)));
+    const real factor = fmin(STEP * h * h, R(0.1) * p->spacing / fmax(size, R(1.0e-30)));
     rates[RATE_U * stride + first + k] = -factor * b.error_x;
     rates[RATE_V * stride + first + k] = -factor * b.error_y;
     rates[RATE_W * stride + first + k] = -factor * b.error_z;

@@ -5,6 +5,7 @@ real smoothing_length;    // h
 real inverse_smoothing;   // 1/h
 real support;             // R = 2h
 real support_squared;     // R²
+real inverse_support;     // 1/R
 real kernel_scale;        // α of W = α (1−q/2)⁴ (1+2q)
 real slope_scale;         // 5α/h² of F = 5α/h² (1−q/2)³
 real inverse_cell;        // 1/side of a walls' cell; the side is R

@@ -12,8 +12,6 @@
 // Elements are sorted by cells of the support's size, x fastest: three cells in a row are one contiguous run. Facets are larger than cells: each cell has a
 // list of those within the support of it.
 #ifdef SWEEP_PARTICLES
-#define FAR_AWAY R(1.0e12)
-
 typedef struct {
   real x0, x1, y0, y1, z0, z1;
 } box_t;
@@ -74,22 +72,34 @@ INLINE real gap_to_row(__constant const parameters_t* p, int r, real low, real h
   return fmax(fmax(begin - high, low - (begin + p->row_side)), R(0.0));
 }
 
+INLINE real gap_y_to_row(__constant const parameters_t* p, int r, const box_t* box) {
+#if DIMENSIONS == 3
+  return gap_to_row(p, r, box->y0, box->y1);
+#else
+  return R(0.0);
+#endif
+}
+
+// The slots that the ends of a box along x fall into, as lengths of slots from the grid's border.
+typedef struct {
+  real x0, x1;
+} span_t;
+
+INLINE span_t span_of(__constant const parameters_t* p, const box_t* box) {
+  const span_t span = {box->x0 * p->inverse_slot, box->x1 * p->inverse_slot};
+  return span;
+}
+
 typedef struct {
   int begin, end;  // particles
 } run_t;
 
-// The particles of a row that may be within reach of the box; none if end ≤ begin.
-INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* slot_start, const box_t* box, real reach, int ry, int rz) {
-  const real gap_z = gap_to_row(p, rz, box->z0, box->z1);
-#if DIMENSIONS == 3
-  const real gap_y = gap_to_row(p, ry, box->y0, box->y1);
-#else
-  const real gap_y = R(0.0);
-#endif
-  const real left = reach * reach - gap_y * gap_y - gap_z * gap_z;
-  const real half_length = sqrt(fmax(left, R(0.0)));
-  const int first = slot_coordinate(p, box->x0 - half_length), last = slot_coordinate(p, box->x1 + half_length);
-  const int slot = first_slot(p, row_index(p, ry, rz), first, last);
+// The particles of a row that may be within reach of the box; `left`: the square of the reach less that of the gap between them. None if end ≤ begin.
+INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* slot_start, const span_t* span, real left, int row) {
+  const real half_length = sqrt(fmax(left, R(0.0))) * p->inverse_slot;
+  const int most = p->slots_x - 2;
+  const int first = min(max((int)(span->x0 - half_length) + 1, 1), most), last = min(max((int)(span->x1 + half_length) + 1, 1), most);
+  const int slot = first_slot(p, row, first, last);
   run_t run;
   run.begin = slot_start[slot];
   run.end = left > R(0.0) ? slot_start[slot + last - first + 1] : run.begin;
@@ -145,52 +155,56 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
 INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
   const box_t box = within_grid(p, box_of_place(at, 0));
   const rows_t rows = rows_near(p, &box, sums->near.reach);
+  const span_t span = span_of(p, &box);
+  const real reach2 = sums->near.reach * sums->near.reach;
   for (int rz = rows.z0; rz <= rows.z1; ++rz)
     for (int ry = rows.y0; ry <= rows.y1; ++ry) {
-      const run_t run = run_of_row(p, slot_start, &box, sums->near.reach, ry, rz);
+      const real gap_y = gap_y_to_row(p, ry, &box), gap_z = gap_to_row(p, rz, box.z0, box.z1);
+      const run_t run = run_of_row(p, slot_start, &span, reach2 - gap_y * gap_y - gap_z * gap_z, row_index(p, ry, rz));
       sweep_run(sums, p, run, at->x[0], at->y[0], at->z[0]);
     }
 }
 #else
-#define MOST_RUNS 64
-#define MOST_ROWS 64  // near a tile whose particles lie together
+// Near a tile whose particles lie together, which has more of them than one alone.
+#define MOST_ROWS 64
 
-// All rows near the box. First a list of runs, then the candidates of all of them in one loop, which a processor foresees the end of: runs are short.
+// All rows near the box, of which there are no more than MOST_ROWS. First a list of runs, then the candidates of all of them in one loop, whose end a
+// processor foresees: runs are short.
 INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, tile x, tile y, tile z) {
   const neighbours_t* near = &sums->near;
-  const real reach = near->reach;
-  const rows_t rows = rows_near(p, &box, reach);
-  int begins[MOST_RUNS], ends[MOST_RUNS];  // begins: less what the runs before have gone through
-  int ry = rows.y0, rz = rows.z0;
-  while (rz <= rows.z1) {
-    int runs = 0, blocks = 0;
-    while (rz <= rows.z1 && runs < MOST_RUNS) {
-      const run_t run = run_of_row(p, slot_start, &box, reach, ry, rz);
+  const rows_t rows = rows_near(p, &box, near->reach);
+  const span_t span = span_of(p, &box);
+  const real reach2 = near->reach * near->reach;
+  int list[2 * MOST_ROWS];  // where each run begins, less what the runs before have gone through, and where it ends
+  int runs = 0, blocks = 0;
+  for (int rz = rows.z0; rz <= rows.z1; ++rz) {
+    const real gap_z = gap_to_row(p, rz, box.z0, box.z1);
+    const real left = reach2 - gap_z * gap_z;
+    for (int ry = rows.y0; ry <= rows.y1; ++ry) {
+      const real gap_y = gap_y_to_row(p, ry, &box);
+      const run_t run = run_of_row(p, slot_start, &span, left - gap_y * gap_y, row_index(p, ry, rz));
       const int length = run.end - run.begin;
-      begins[runs] = run.begin - TILE_NEAR * blocks;
-      ends[runs] = run.end;
-      runs += length > 0 ? 1 : 0;
+      list[runs] = run.begin - TILE_NEAR * blocks;
+      list[runs + 1] = run.end;
+      runs += length > 0 ? 2 : 0;
       blocks += (length + TILE_NEAR - 1) / TILE_NEAR;
-      const bool last = ry == rows.y1;
-      ry = last ? rows.y0 : ry + 1;
-      rz += last ? 1 : 0;
     }
-    int r = 0;
-    for (int block = 0; block < blocks; ++block) {
-      const int j = begins[r] + TILE_NEAR * block;
-      const int left = ends[r] - j;
-      const tile rx = near_field(near, FIELD_X, j) - x;
+  }
+  const int* run = list;
+  for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
+    const int j = run[0] + gone;
+    const int left = run[1] - j;
+    const tile rx = near_field(near, FIELD_X, j) - x;
 #if DIMENSIONS == 3
-      const tile ry_ = near_field(near, FIELD_Y, j) - y;
+    const tile ry_ = near_field(near, FIELD_Y, j) - y;
 #else
-      const tile ry_ = (tile)(R(0.0));
+    const tile ry_ = (tile)(R(0.0));
 #endif
-      const tile rz_ = near_field(near, FIELD_Z, j) - z;
-      const tile r2 = rx * rx + ry_ * ry_ + rz_ * rz_;
-      // beyond the run's end lie particles of other slots
-      add_particle(sums, p, j, rx, ry_, rz_, NEAR_LANES < (tile)((real)left) ? r2 : (tile)(FAR_AWAY));
-      r += left <= TILE_NEAR ? 1 : 0;
-    }
+    const tile rz_ = near_field(near, FIELD_Z, j) - z;
+    const tile r2 = rx * rx + ry_ * ry_ + rz_ * rz_;
+    // beyond the run's end lie particles of other slots
+    add_particle(sums, p, j, rx, ry_, rz_, r2 + beyond_end(left));
+    run += left <= TILE_NEAR ? 2 : 0;
   }
 }
 
@@ -256,15 +270,18 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
 #endif
 
 INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
-  const places_t own = sums->near.places;
-  sweep_rows(sums, p, slot_start, &own);
+  places_t at = sums->near.places;
 #if IMAGES
-  for (int k = 0; k < p->images; ++k) {
-    __global const real* image = images + k * IMAGE_COUNT;
-    if (image[IMAGE_MIRRORED] > R(0.5) || !places_near_image(p, &sums->near, image)) continue;
-    const places_t seen = places_seen_by_image(image, &own);
-    sweep_rows(sums, p, slot_start, &seen);
+  for (int k = -1; k < p->images; ++k) {  // first the tank itself: one call, or the whole loop would be compiled twice
+    if (k >= 0) {
+      __global const real* image = images + k * IMAGE_COUNT;
+      if (image[IMAGE_MIRRORED] > R(0.5) || !places_near_image(p, &sums->near, image)) continue;
+      at = places_seen_by_image(image, &sums->near.places);
+    }
+    sweep_rows(sums, p, slot_start, &at);
   }
+#else
+  sweep_rows(sums, p, slot_start, &at);
 #endif
 #if GHOSTS
   sweep_ghosts(sums, p, slot_start, images);

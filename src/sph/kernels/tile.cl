@@ -23,14 +23,41 @@ typedef float8 tile;
 typedef float16 tile;
 #endif
 
-// spread_own(v): the value of each own particle, once for each candidate; near_values(v, j): of the candidates from j on, once for each own particle.
-// NEAR_LANES and OWN_LANES: which candidate and which own particle each lane has. own_sums: over the candidates, of each own particle.
+// spread_own(v): the value of each own particle, once for each candidate; near_values(v, j): of the candidates from j on, once for each own particle;
+// beyond_end(left): nothing for each candidate but those after the first `left`, which it puts far away. OWN_LANES: which own particle each lane has.
+// own_sums: over the candidates, of each own particle.
+#define FAR_AWAY R(1.0e12)
+#if TILE_NEAR > 1
+__constant real after_end[2 * TILE_NEAR] = {
+    R(0.0), R(0.0),
+#if TILE_NEAR >= 4
+    R(0.0), R(0.0),
+#endif
+#if TILE_NEAR >= 8
+    R(0.0), R(0.0), R(0.0), R(0.0),
+#endif
+#if TILE_NEAR >= 16
+    R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0),
+#endif
+    FAR_AWAY, FAR_AWAY,
+#if TILE_NEAR >= 4
+    FAR_AWAY, FAR_AWAY,
+#endif
+#if TILE_NEAR >= 8
+    FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY,
+#endif
+#if TILE_NEAR >= 16
+    FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY,
+#endif
+};
+#define AFTER_END(left) (after_end + TILE_NEAR - min(left, TILE_NEAR))
+#endif
+
 #if TILE_LANES == 1
 INLINE tile spread_own(const real* v) { return v[0]; }
 INLINE tile own_values(__global const real* v, int i) { return v[i]; }
 INLINE tile near_values(__global const real* v, int j) { return v[j]; }
 INLINE void own_sums(tile a, real* sums) { sums[0] = a; }
-#define NEAR_LANES R(0.0)
 #define OWN_LANES R(0.0)
 
 #elif TILE_OWN == 4 && TILE_NEAR == 4
@@ -38,7 +65,7 @@ INLINE tile spread_own(const real* v) { return vload4(0, v).s0000111122223333; }
 INLINE tile own_values(__global const real* v, int i) { return vload4(0, v + i).s0000111122223333; }
 INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j).s0123012301230123; }
 INLINE void own_sums(tile a, real* sums) { vstore4((a.s048c + a.s159d) + (a.s26ae + a.s37bf), 0, sums); }
-#define NEAR_LANES (tile)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)
+INLINE tile beyond_end(int left) { return vload4(0, AFTER_END(left)).s0123012301230123; }
 #define OWN_LANES (tile)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
 
 #elif TILE_OWN == 2 && TILE_NEAR == 4
@@ -46,7 +73,7 @@ INLINE tile spread_own(const real* v) { return vload2(0, v).s00001111; }
 INLINE tile own_values(__global const real* v, int i) { return vload2(0, v + i).s00001111; }
 INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j).s01230123; }
 INLINE void own_sums(tile a, real* sums) { vstore2((a.s04 + a.s15) + (a.s26 + a.s37), 0, sums); }
-#define NEAR_LANES (tile)(0, 1, 2, 3, 0, 1, 2, 3)
+INLINE tile beyond_end(int left) { return vload4(0, AFTER_END(left)).s01230123; }
 #define OWN_LANES (tile)(0, 0, 0, 0, 1, 1, 1, 1)
 
 #elif TILE_OWN == 2 && TILE_NEAR == 2
@@ -54,7 +81,7 @@ INLINE tile spread_own(const real* v) { return vload2(0, v).s0011; }
 INLINE tile own_values(__global const real* v, int i) { return vload2(0, v + i).s0011; }
 INLINE tile near_values(__global const real* v, int j) { return vload2(0, v + j).s0101; }
 INLINE void own_sums(tile a, real* sums) { vstore2(a.s02 + a.s13, 0, sums); }
-#define NEAR_LANES (tile)(0, 1, 0, 1)
+INLINE tile beyond_end(int left) { return vload2(0, AFTER_END(left)).s0101; }
 #define OWN_LANES (tile)(0, 0, 1, 1)
 
 // of points, which need not lie together
@@ -74,15 +101,15 @@ INLINE real sum4(
 #if TILE_NEAR == 16
 INLINE tile near_values(__global const real* v, int j) { return vload16(0, v + j); }
 INLINE void own_sums(tile a, real* sums) { sums[0] = sum4((a.s0123 + a.s4567) + (a.s89ab + a.scdef)); }
-#define NEAR_LANES (tile)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+INLINE tile beyond_end(int left) { return vload16(0, AFTER_END(left)); }
 #elif TILE_NEAR == 8
 INLINE tile near_values(__global const real* v, int j) { return vload8(0, v + j); }
 INLINE void own_sums(tile a, real* sums) { sums[0] = sum4(a.s0123 + a.s4567); }
-#define NEAR_LANES (tile)(0, 1, 2, 3, 4, 5, 6, 7)
+INLINE tile beyond_end(int left) { return vload8(0, AFTER_END(left)); }
 #else
 INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j); }
 INLINE void own_sums(tile a, real* sums) { sums[0] = sum4(a); }
-#define NEAR_LANES (tile)(0, 1, 2, 3)
+INLINE tile beyond_end(int left) { return vload4(0, AFTER_END(left)); }
 #endif
 #endif
 
@@ -111,13 +138,13 @@ INLINE tile_vector_t tile_cross(vector_t a, tile_vector_t b) {
 
 // Wendland C2: W(r) and F(r) = −W'(r)/r, so that ∇_i W = F (x_j − x_i). Both vanish beyond 2h without a branch.
 INLINE tile kernel_values(__constant const parameters_t* p, tile distance) {
-  const tile q = distance * p->inverse_smoothing;
-  const tile t = fmax(R(1.0) - R(0.5) * q, R(0.0));
+  const tile t = fmax(R(1.0) - distance * p->inverse_support, R(0.0));
   const tile tt = t * t;
-  return p->kernel_scale * tt * tt * (R(1.0) + R(2.0) * q);
+  return p->kernel_scale * tt * tt * (R(5.0) - R(4.0) * t);
 }
 
+// F but for its factor p->slope_scale, which sums of it are given once.
 INLINE tile kernel_slopes(__constant const parameters_t* p, tile distance) {
-  const tile t = fmax(R(1.0) - R(0.5) * distance * p->inverse_smoothing, R(0.0));
-  return p->slope_scale * t * t * t;
+  const tile t = fmax(R(1.0) - distance * p->inverse_support, R(0.0));
+  return t * t * t;
 }
