@@ -21,8 +21,8 @@ std::vector<SweepCost> sweep_costs(const BenchCase& bench_case) {
   const bool fourtakas = bench_case.diffusion == DensityDiffusion::fourtakas, antuono = bench_case.diffusion == DensityDiffusion::antuono;
   const bool volumetric = bench_case.walls.method != WallMethod::ghost && bench_case.walls.shepard == ShepardFactor::volumetric;
 
-  const double distance = count.of(3 + 5, 2 + 3) + 1;         // r, r², √
-  const double slope = 3 + 3 + 1;                             // sweep: t = max(0, 1 − r/2h): 3; its cube times the scale: 3; times V: 1
+  const double distance = count.of(3 + 5, 2 + 3) + 1 + 1;     // r, r², what puts it away beyond a run's end, √
+  const double slope = 3 + 2 + 1;                             // t = max(0, 1 − r/R): 3; its cube: 2; times V: 1
   const double velocity = count.of(3 + 5, 2 + 3);             // u_j − u_i, · r
   const double own_shepard = volumetric ? 3 + 2 + 1 + 2 : 0;  // W: t⁴ times the scale, 1 + 2q, their product; times V, sum
 
@@ -32,7 +32,7 @@ std::vector<SweepCost> sweep_costs(const BenchCase& bench_case) {
   const double momentum = distance + slope + own_shepard + velocity + inverse + central + force;  // near walls the fit comes on top
 
   double continuity = distance + slope + own_shepard + velocity + 2;  // Σ u·r F V
-  if (fourtakas) continuity += 1 + count.of(5, 3) + 4;                // s_j − s_i; hydrostatics · r; Σ 2 F V (… − …)
+  if (fourtakas) continuity += 1 + count.of(5, 3) + 3;                // s_j − s_i; hydrostatics · r; Σ F V (… − …)
   if (antuono) continuity += 1 + count.of(3 + 5, 2 + 3) + 4;          // the same with the mean of two gradients
 
   const double gradient = distance + slope + 2 + count.of(6 + 15, 4 + 8);  // (s_j − s_i) F V; Σ … r; Σ F V r ⊗ r, symmetric

@@ -33,7 +33,7 @@ void ParticleGrid::sort(const compute::Buffer<char>& parameters, compute::Buffer
   scan_totals_.launch(1, blocks_, block_sums_);
   scan_starts_.launch(blocks_, slots_, counts_, block_sums_, starts_);
   scatter_.launch(particles_, particles_, slot_of_, starts_, counts_, order_);
-  settle_.launch(slots_, parameters, slots_, starts_, state, stride, order_);
+  settle_.launch(slots_, slots_, starts_, state, stride, order_);
   reorder_.launch(particles_, particles_, order_, state, spare_state, stride, id, spare_id);
   std::swap(state, spare_state);
   std::swap(id, spare_id);

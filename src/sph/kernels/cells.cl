@@ -21,19 +21,13 @@ INLINE int cell_index(__constant const parameters_t* p, real x, real y, real z) 
 // A particle's slot of its row.
 INLINE int slot_coordinate(__constant const parameters_t* p, real x) { return cell_coordinate(x, p->inverse_slot, p->slots_x); }
 
-// Rows and slots in the order in which the particles lie in memory: every other row runs backwards and every other layer of rows from its last row, so that
-// particles next to each other in memory lie together at the ends of rows too.
+// Rows and slots lie in memory with x fastest, then y.
 INLINE int row_index(__constant const parameters_t* p, int ry, int rz) {
 #if DIMENSIONS == 3
-  return rz * p->rows_y + ((rz & 1) != 0 ? p->rows_y - 1 - ry : ry);
+  return rz * p->rows_y + ry;
 #else
   return rz;
 #endif
-}
-
-// The first of the slots from `first` to `last` along x, in memory.
-INLINE int first_slot(__constant const parameters_t* p, int row, int first, int last) {
-  return row * p->slots_x + ((row & 1) != 0 ? p->slots_x - 1 - last : first);
 }
 
 INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) {
@@ -43,6 +37,5 @@ INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) 
 #else
   const int ry = 0;
 #endif
-  const int slot = slot_coordinate(p, x);
-  return first_slot(p, row_index(p, ry, rz), slot, slot);
+  return row_index(p, ry, rz) * p->slots_x + slot_coordinate(p, x);
 }

@@ -49,24 +49,19 @@ __kernel void scatter(int count, __global const int* slot_of, __global const int
   if (i < count) order[starts[slot_of[i]] + atomic_dec(&counts[slot_of[i]]) - 1] = i;
 }
 
-// Whether particle a goes before b in their slot: in the direction of its row, so that tiles are short; of two at one place the one that went before.
-INLINE bool goes_before(__global const real* xs, int a, int b, real direction) {
-  const real way = direction * (xs[b] - xs[a]);
-  return way > R(0.0) || (way == R(0.0) && a < b);
-}
+// Whether particle a goes before b in their slot: along x, so that tiles are short; of two at one place the one that went before.
+INLINE bool goes_before(__global const real* xs, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && a < b); }
 
 // The scatter's order within a slot depends on the device's scheduling.
-__kernel void settle_slots(__constant const parameters_t* p, int slots, __global const int* starts, __global const real* state, int stride,
-                           __global int* order) {
+__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, int stride, __global int* order) {
   const int slot = get_global_id(0);
   if (slot >= slots) return;
   __global const real* xs = state + FIELD_X * stride;
-  const real direction = (slot / p->slots_x & 1) != 0 ? R(-1.0) : R(1.0);
   const int begin = starts[slot], end = starts[slot + 1];
   for (int i = begin + 1; i < end; ++i) {
     const int moving = order[i];
     int place = i;
-    while (place > begin && goes_before(xs, moving, order[place - 1], direction)) {
+    while (place > begin && goes_before(xs, moving, order[place - 1])) {
       order[place] = order[place - 1];
       --place;
     }

@@ -414,14 +414,13 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
   __global const real* centre = OWNER_MOTION(wall_motions, owner);
   const int in_region = item - region[REGION_ITEM];
   const int run = in_region % region[REGION_RUNS], row = in_region / region[REGION_RUNS];
-  const int first_x = region[REGION_SLOT_X] + run * REGION_RUN;
-  const int last_x = min(first_x + REGION_RUN, region[REGION_END_X]) - 1;
-  const int row_of_run = row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
-  const int slot = first_slot(p, row_of_run, first_x, last_x);
-  const int end = slot_start[slot + last_x - first_x + 1];
+  const int first_slot = region[REGION_SLOT_X] + run * REGION_RUN;
+  const int end_slot = min(first_slot + REGION_RUN, region[REGION_END_X]);
+  const int line = p->slots_x * row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
+  const int end = slot_start[line + end_slot];
   const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
   vector_t push = nothing, drag = nothing, push_torque = nothing, drag_torque = nothing;
-  for (int first = slot_start[slot]; first < end; first += TILE_OWN) {
+  for (int first = slot_start[line + first_slot]; first < end; first += TILE_OWN) {
     bool touching[TILE_OWN];
     bool any = false;
     for (int own = 0; own < TILE_OWN; ++own) {

@@ -99,10 +99,9 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
   const real half_length = sqrt(fmax(left, R(0.0))) * p->inverse_slot;
   const int most = p->slots_x - 2;
   const int first = min(max((int)(span->x0 - half_length) + 1, 1), most), last = min(max((int)(span->x1 + half_length) + 1, 1), most);
-  const int slot = first_slot(p, row, first, last);
   run_t run;
-  run.begin = slot_start[slot];
-  run.end = left > R(0.0) ? slot_start[slot + last - first + 1] : run.begin;
+  run.begin = slot_start[row * p->slots_x + first];
+  run.end = left > R(0.0) ? slot_start[row * p->slots_x + last + 1] : run.begin;
   return run;
 }
 
