@@ -35,7 +35,9 @@ WallArrays<Real> CaseWalls::arrays(const compute::Device& device, bool own, cons
   }
   std::vector<Facet> facets;
   if (own) facets = kind_ == WallKind::facets ? closed_.facets : closed_.triangles;
-  for (const WallElement& element : lid) {
+  // triangles stand for the pressure at their centre and stay small; facets are exact at any size, and cost by their number
+  const bool whole = kind_ == WallKind::facets;
+  for (const WallElement& element : whole ? joined_rectangles(lid, discretisation_.spacing, dimensions_) : lid) {
     const std::vector<Facet> parts = facets_of(element, dimensions_);
     facets.insert(facets.end(), parts.begin(), parts.end());
   }

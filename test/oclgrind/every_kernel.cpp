@@ -117,6 +117,12 @@ int main() {
       Carried mover(dimensions);
       run(device, scene, {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}, &mover);
     }
+    // tiles of sixteen lanes, which read beyond the last particle
+    wavetank::compute::DeviceInfo wide = device.info();
+    wide.vector_width = 16;
+    wavetank::Case open_water = column(3, wavetank::DensityDiffusion::antuono);
+    open_water.bodies.clear();
+    run(wavetank::compute::Device(wide), open_water, {Vector3d::Zero()});
     std::set<std::string> kernels;
     for (const auto& timing : device.timings()) kernels.insert(timing.kernel);
     std::printf("kernels run:");

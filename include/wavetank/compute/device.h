@@ -20,7 +20,7 @@ struct DeviceInfo {
   bool is_gpu = false;
   bool has_double = false;
   unsigned compute_units = 0;
-  unsigned vector_width = 1;  ///< single-precision numbers that fit into a vector register
+  unsigned vector_width = 1;       ///< single-precision numbers that fit into a vector register
   std::size_t global_memory = 0;   ///< bytes
   std::size_t max_allocation = 0;  ///< bytes
   std::size_t max_work_group = 0;

@@ -78,3 +78,12 @@ typedef struct {
 #define GUARD_OWNERS 2
 #define NO_OWNER (-1)
 #define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
+
+// By its bits: fast-math deletes a comparison with itself.
+INLINE bool not_finite(real value) {
+#if USE_DOUBLE
+  return (as_ulong(value) & 0x7ff0000000000000UL) == 0x7ff0000000000000UL;
+#else
+  return (as_uint(value) & 0x7f800000U) == 0x7f800000U;
+#endif
+}

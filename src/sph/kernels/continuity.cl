@@ -99,7 +99,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
 #if DIFFUSION_ANTUONO
   a.gradient = gradient;
   a.own_gradient = make_tile_vector(own_values(gradient, first), own_values(gradient + stride, first), own_values(gradient + 2 * stride, first));

@@ -53,7 +53,7 @@ __kernel void density_gradient(__constant const parameters_t* p, int count, __gl
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
   sweep_particles(&a, p, slot_start, images);
   places_t sum;

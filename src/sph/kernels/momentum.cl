@@ -249,48 +249,44 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
 #endif
 
 // The sums of the tile that begins with particle `first`.
-INLINE sweep_t start_sums(__constant const parameters_t* p, int first, int end, __global const real* state, int stride, real reach,
-                          const walls_t* walls) {
-  sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, walls, first, end);
-  a.u = own_values(state + FIELD_U * stride, first);
-  a.v = own_values(state + FIELD_V * stride, first);
-  a.w = own_values(state + FIELD_W * stride, first);
-  a.pressure = own_values(state + FIELD_PRESSURE * stride, first);
+INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, int end, __global const real* state, int stride, real reach,
+                       const walls_t* walls) {
+  neighbours_of(&a->near, state, stride, reach, walls, first, end);
+  a->u = own_values(state + FIELD_U * stride, first);
+  a->v = own_values(state + FIELD_V * stride, first);
+  a->w = own_values(state + FIELD_W * stride, first);
+  a->pressure = own_values(state + FIELD_PRESSURE * stride, first);
 #if NEEDS_FIT
-  a.fitting = true;
+  a->fitting = true;
 #if MOVING_FRAME
   places_t gravity;
   for (int k = 0; k < TILE_OWN; ++k) {
-    const vector_t own = gravity_at(p, walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k], velocity_of(state, stride, first + k));
+    const vector_t own = gravity_at(p, walls, a->near.places.x[k], a->near.places.y[k], a->near.places.z[k], velocity_of(state, stride, first + k));
     gravity.x[k] = own.x;
     gravity.y[k] = own.y;
     gravity.z[k] = own.z;
   }
-  a.gravity = make_tile_vector(spread_own(gravity.x), spread_own(gravity.y), spread_own(gravity.z));
+  a->gravity = make_tile_vector(spread_own(gravity.x), spread_own(gravity.y), spread_own(gravity.z));
 #endif
 #endif
-  return a;
 }
 
-INLINE wall_sweep_t start_wall_sums(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
-                                    __global const real* wall_loads) {
-  wall_sweep_t b = {0};
-  b.walls = walls;
-  b.wall_loads = wall_loads;
-  b.x = state[FIELD_X * stride + i];
-  b.y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
-  b.z = state[FIELD_Z * stride + i];
+INLINE void start_wall_sums(wall_sweep_t* b, __constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
+                            __global const real* wall_loads) {
+  b->walls = walls;
+  b->wall_loads = wall_loads;
+  b->x = state[FIELD_X * stride + i];
+  b->y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0);
+  b->z = state[FIELD_Z * stride + i];
   const vector_t own = velocity_of(state, stride, i);
-  b.u = own.x;
-  b.v = own.y;
-  b.w = own.z;
-  b.pressure = state[FIELD_PRESSURE * stride + i];
-  b.density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
-  b.gravity = gravity_at(p, walls, b.x, b.y, b.z, own);
-  b.shepard = SHEPARD_START;
-  b.clearance = p->support;
-  return b;
+  b->u = own.x;
+  b->v = own.y;
+  b->w = own.z;
+  b->pressure = state[FIELD_PRESSURE * stride + i];
+  b->density = p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
+  b->gravity = gravity_at(p, walls, b->x, b->y, b->z, own);
+  b->shepard = SHEPARD_START;
+  b->clearance = p->support;
 }
 
 // What the sweep over the particles has found for each of the tile's own.
@@ -308,24 +304,22 @@ typedef struct {
 #endif
 } pair_sums_t;
 
-INLINE pair_sums_t finish_particles(const sweep_t* a) {
-  pair_sums_t s;
-  own_sums(a->force_x, s.force.x);
-  own_sums(a->force_y, s.force.y);
-  own_sums(a->force_z, s.force.z);
+INLINE void finish_particles(const sweep_t* a, pair_sums_t* s) {
+  own_sums(a->force_x, s->force.x);
+  own_sums(a->force_y, s->force.y);
+  own_sums(a->force_z, s->force.z);
 #if WALL_FORCES || VISCOSITY_MORRIS
-  own_sums(a->viscous_x, s.viscous.x);
-  own_sums(a->viscous_y, s.viscous.y);
-  own_sums(a->viscous_z, s.viscous.z);
+  own_sums(a->viscous_x, s->viscous.x);
+  own_sums(a->viscous_y, s->viscous.y);
+  own_sums(a->viscous_z, s->viscous.z);
 #endif
 #if SHEPARD_VOLUMETRIC
-  own_sums(a->shepard, s.shepard);
+  own_sums(a->shepard, s->shepard);
 #endif
 #if NEEDS_FIT
-  s.fitting = a->fitting;
-  if (a->fitting) own_fits(&a->fit, s.fit);
+  s->fitting = a->fitting;
+  if (a->fitting) own_fits(&a->fit, s->fit);
 #endif
-  return s;
 }
 
 INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, const pair_sums_t* s, int k) {
@@ -359,7 +353,8 @@ INLINE bool touches(__constant const parameters_t* p, int i, __global const real
 #if GHOSTS
   return true;
 #else
-  wall_sweep_t b = start_wall_sums(p, i, state, stride, walls, 0);
+  wall_sweep_t b = {0};
+  start_wall_sums(&b, p, i, state, stride, walls, 0);
   b.owner = owner;
   b.looking = true;
   sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
@@ -375,7 +370,8 @@ typedef struct {
 INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int k, const pair_sums_t* sums, __global const real* state, int stride,
                                     const walls_t* walls, __global const real* images, __global const real* wall_loads, int owner) {
   owner_force_t f;
-  wall_sweep_t b = start_wall_sums(p, i, state, stride, walls, wall_loads);
+  wall_sweep_t b = {0};
+  start_wall_sums(&b, p, i, state, stride, walls, wall_loads);
   b.owner = owner;
   take_pair_sums(&b, p, sums, k);
 #if GHOSTS
@@ -428,13 +424,15 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
       any = any || touching[own];
     }
     if (!any) continue;
-    sweep_t a = start_sums(p, first, end, state, stride, reach, &walls);
+    sweep_t a = {0};
+    start_sums(&a, p, first, end, state, stride, reach, &walls);
 #if GHOSTS
     sweep_ghosts(&a, p, slot_start, images);
 #else
     sweep_particles(&a, p, slot_start, images);
 #endif
-    const pair_sums_t sums = finish_particles(&a);
+    pair_sums_t sums;
+    finish_particles(&a, &sums);
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, owner);
@@ -458,7 +456,8 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
-  sweep_t a = start_sums(p, first, count, state, stride, reach, &walls);
+  sweep_t a = {0};
+  start_sums(&a, p, first, count, state, stride, reach, &walls);
 #if NEEDS_FIT
   bool near = false;
   for (int k = 0; k < a.near.own; ++k) near = near || near_walls(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
@@ -472,10 +471,12 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
 #else
   sweep_particles(&a, p, slot_start, images);
 #endif
-  const pair_sums_t sums = finish_particles(&a);
+  pair_sums_t sums;
+  finish_particles(&a, &sums);
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
-    wall_sweep_t b = start_wall_sums(p, i, state, stride, &walls, wall_loads);
+    wall_sweep_t b = {0};
+    start_wall_sums(&b, p, i, state, stride, &walls, wall_loads);
     take_pair_sums(&b, p, &sums, k);
 #if GHOSTS
     b.clearance = R(0.0);  // the guard looks for itself

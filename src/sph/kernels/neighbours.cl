@@ -74,39 +74,35 @@ INLINE vector_t velocity_of(__global const real* state, int stride, int i) {
   return make_vector(state[FIELD_U * stride + i], DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0), state[FIELD_W * stride + i]);
 }
 
-INLINE neighbours_t no_neighbours(__global const real* state, int stride, real reach, const walls_t* walls) {
-  neighbours_t n;
-  n.state = state;
-  n.stride = stride;
-  n.reach = reach;
-  n.own = TILE_OWN;
-  n.walls = walls;
+INLINE void start_neighbours(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls) {
+  n->state = state;
+  n->stride = stride;
+  n->reach = reach;
+  n->own = TILE_OWN;
+  n->walls = walls;
 #if GHOSTS
-  n.mirrored = false;
-  n.image = 0;
+  n->mirrored = false;
+  n->image = 0;
 #endif
-  return n;
 }
 
 // Of the particles from `first` on, TILE_OWN or as many as there are before `end`.
-INLINE neighbours_t neighbours_of(__global const real* state, int stride, real reach, const walls_t* walls, int first, int end) {
-  neighbours_t n = no_neighbours(state, stride, reach, walls);
-  n.own = min(TILE_OWN, end - first);
+INLINE void neighbours_of(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, int first, int end) {
+  start_neighbours(n, state, stride, reach, walls);
+  n->own = min(TILE_OWN, end - first);
   for (int k = 0; k < TILE_OWN; ++k) {
-    n.places.x[k] = state[FIELD_X * stride + first + k];
-    n.places.y[k] = DIMENSIONS == 3 ? state[FIELD_Y * stride + first + k] : R(0.0);
-    n.places.z[k] = state[FIELD_Z * stride + first + k];
+    n->places.x[k] = state[FIELD_X * stride + first + k];
+    n->places.y[k] = DIMENSIONS == 3 ? state[FIELD_Y * stride + first + k] : R(0.0);
+    n->places.z[k] = state[FIELD_Z * stride + first + k];
   }
-  return n;
 }
 
 // Of a point; in tiles of one.
-INLINE neighbours_t neighbours_at(__global const real* state, int stride, real reach, const walls_t* walls, real x, real y, real z) {
-  neighbours_t n = no_neighbours(state, stride, reach, walls);
-  n.places.x[0] = x;
-  n.places.y[0] = y;
-  n.places.z[0] = z;
-  return n;
+INLINE void neighbours_at(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, real x, real y, real z) {
+  start_neighbours(n, state, stride, reach, walls);
+  n->places.x[0] = x;
+  n->places.y[0] = y;
+  n->places.z[0] = z;
 }
 
 // A field of the candidates from j on.

@@ -53,7 +53,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   sweep_particles(&a, p, slot_start, images);
   places_t error;
   own_sums(a.error_x, error.x);

@@ -21,7 +21,7 @@ __kernel void pairs(__constant const parameters_t* p, int count, __global const 
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   sweep_particles(&a, p, slot_start, images);
   real within[TILE_OWN], candidates[TILE_OWN];
   own_sums(a.within, within);

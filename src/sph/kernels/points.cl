@@ -74,7 +74,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   const walls_t walls = WALLS_OF_ARGUMENTS;
   const real x = points[i], y = points[count + i], z = points[2 * count + i];
   sweep_t a = {0};
-  a.near = neighbours_at(state, stride, reach, &walls, x, y, z);
+  neighbours_at(&a.near, state, stride, reach, &walls, x, y, z);
   a.gravity = gravity_at(p, &walls, x, y, z, make_vector(R(0.0), R(0.0), R(0.0)));
   sweep_particles(&a, p, slot_start, images);
   const real shepard = find_shepard(p, &walls, images, x, y, z);
@@ -96,7 +96,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   if (first >= count) return;
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  a.near = neighbours_of(state, stride, reach, &walls, first, count);
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   sweep_particles(&a, p, slot_start, images);
   real weight[TILE_OWN];
   own_sums(a.weight, weight);

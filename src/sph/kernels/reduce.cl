@@ -22,22 +22,16 @@
 #define ALARM_FIRST 3         // the least index of an offender
 #define ALARM_GUARD 4         // guard hits of this step
 #define ALARM_SHEPARD 5       // γ bounded
-#define ALARM_COUNT 6
-
-INLINE bool not_finite(real value) {
-#if USE_DOUBLE
-  return (as_ulong(value) & 0x7ff0000000000000UL) == 0x7ff0000000000000UL;
-#else
-  return (as_uint(value) & 0x7f800000U) == 0x7f800000U;
-#endif
-}
+#define ALARM_INFECTED 6      // not finite in the compression alone, which follows from that of others, and the least index of such
+#define ALARM_FIRST_INFECTED 7
+#define ALARM_COUNT 8
 
 __kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, int stride,
                            __global const int* guard_hits, __global real* watches, __global int* alarms) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
   real speed = R(0.0), acceleration = R(0.0);
-  int broken = 0, outside = 0, fast = 0, first = NOBODY, guarded = 0, bounded = 0;
+  int broken = 0, outside = 0, fast = 0, first = NOBODY, guarded = 0, bounded = 0, infected = 0, first_infected = NOBODY;
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     const real x = state[FIELD_X * stride + i], y = state[FIELD_Y * stride + i], z = state[FIELD_Z * stride + i];
     const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
@@ -47,9 +41,12 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
     const real speed2 = u * u + v * v + w * w;
     const real acceleration2 = a * a + b * b + c * c;
     int offends = 0;
-    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2) || not_finite(s) || not_finite(shepard)) {
+    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2)) {
       ++broken;
       offends = 1;
+    } else if (not_finite(s) || not_finite(shepard)) {
+      ++infected;
+      if (first_infected == NOBODY) first_infected = i;
     } else {
       if (x < p->lower_x || x > p->upper_x || y < p->lower_y || y > p->upper_y || z < p->lower_z || z > p->upper_z) {
         ++outside;
@@ -75,6 +72,8 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
   alarms[chunk * ALARM_COUNT + ALARM_FIRST] = first;
   alarms[chunk * ALARM_COUNT + ALARM_GUARD] = guarded;
   alarms[chunk * ALARM_COUNT + ALARM_SHEPARD] = bounded;
+  alarms[chunk * ALARM_COUNT + ALARM_INFECTED] = infected;
+  alarms[chunk * ALARM_COUNT + ALARM_FIRST_INFECTED] = first_infected;
 }
 
 // longest: bound on Δt from what moves besides the fluid, s.
@@ -82,13 +81,18 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
                           __global real* report) {
   if (get_global_id(0) != 0) return;
   real speed = R(0.0), acceleration = R(0.0);
-  int sums[ALARM_COUNT] = {0, 0, 0, 0, 0, 0};
-  int first = NOBODY;
+  int sums[ALARM_COUNT] = {0, 0, 0, 0, 0, 0, 0, 0};
+  int first = NOBODY, first_infected = NOBODY;
   for (int chunk = 0; chunk < chunks; ++chunk) {
     speed = fmax(speed, watches[chunk * WATCH_COUNT + WATCH_SPEED]);
     acceleration = fmax(acceleration, watches[chunk * WATCH_COUNT + WATCH_ACCELERATION]);
-    for (int k = 0; k < ALARM_COUNT; ++k) sums[k] += k == ALARM_FIRST ? 0 : alarms[chunk * ALARM_COUNT + k];
+    for (int k = 0; k < ALARM_COUNT; ++k) sums[k] += k == ALARM_FIRST || k == ALARM_FIRST_INFECTED ? 0 : alarms[chunk * ALARM_COUNT + k];
     first = min(first, alarms[chunk * ALARM_COUNT + ALARM_FIRST]);
+    first_infected = min(first_infected, alarms[chunk * ALARM_COUNT + ALARM_FIRST_INFECTED]);
+  }
+  if (sums[ALARM_NOT_FINITE] == 0 && sums[ALARM_INFECTED] > 0) {  // without another to blame
+    sums[ALARM_NOT_FINITE] = sums[ALARM_INFECTED];
+    first = min(first, first_infected);
   }
   sums[ALARM_FIRST] = first;
   __global int* alarm = (__global int*)(report + REPORT_ALARMS);

@@ -18,6 +18,23 @@ INLINE void derive(__constant const parameters_t* p, __global real* state, int s
   state[FIELD_VOLUME * stride + i] = mass / (p->density * (R(1.0) + compression));
 }
 
+INLINE bool is_lost(__global const real* state, int stride, int i) {
+  bool lost = not_finite(state[FIELD_COMPRESSION * stride + i]);
+  for (int axis = 0; axis < 3; ++axis) lost = lost || not_finite(state[(FIELD_X + axis) * stride + i]) || not_finite(state[(FIELD_U + axis) * stride + i]);
+  return lost;
+}
+
+// A particle with a value that is not finite ends the run. Until the watchdog has seen it, it must not hide among others that it has made so too: others in
+// its tile, however far, since nothing times what is not finite is not finite.
+INLINE void leave_out(__global real* half_state, int stride, int i) {
+  for (int axis = 0; axis < 3; ++axis) {
+    half_state[(FIELD_X + axis) * stride + i] = R(0.0);
+    half_state[(FIELD_U + axis) * stride + i] = R(0.0);
+  }
+  half_state[FIELD_PRESSURE * stride + i] = R(0.0);
+  half_state[FIELD_VOLUME * stride + i] = R(0.0);
+}
+
 __kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, int stride) {
   const int i = get_global_id(0);
   if (i < count) derive(p, state, stride, i, state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
@@ -38,6 +55,7 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   }
   const real compression = state[FIELD_COMPRESSION * stride + i] + half_step * rates[RATE_COMPRESSION * stride + i];
   derive(p, half_state, stride, i, compression, state[FIELD_MASS * stride + i]);
+  if (is_lost(half_state, stride, i)) leave_out(half_state, stride, i);
 }
 
 // position += displacement, with what rounding loses carried on (Kahan).
@@ -79,6 +97,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     move(state, stride, axis, i, R(0.5) * step * (before + after));
   }
   wrap(p, state, stride, i);
+  if (not_finite(half_state[FIELD_COMPRESSION * stride + i])) state[FIELD_U * stride + i] = half_state[FIELD_COMPRESSION * stride + i];  // lost in all
   derive(p, state, stride, i, half_state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
 }
 

@@ -32,10 +32,10 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
 #if THIN_WALLS
   // off a thin wall, to its own side, or it would see both
   const real lift = -R(1.0e-3) * p->spacing;
-  a.near = neighbours_at(state, stride, reach, &walls, x + lift * wall_fields[WALL_NORMAL_X * wall_stride + s], y + lift * wall_fields[WALL_NORMAL_Y * wall_stride + s],
-                         z + lift * wall_fields[WALL_NORMAL_Z * wall_stride + s]);
+  neighbours_at(&a.near, state, stride, reach, &walls, x + lift * wall_fields[WALL_NORMAL_X * wall_stride + s],
+                y + lift * wall_fields[WALL_NORMAL_Y * wall_stride + s], z + lift * wall_fields[WALL_NORMAL_Z * wall_stride + s]);
 #else
-  a.near = neighbours_at(state, stride, reach, &walls, x, y, z);
+  neighbours_at(&a.near, state, stride, reach, &walls, x, y, z);
 #endif
   a.gravity = gravity_at_wall(p, &walls, s, x, y, z, wall_velocity(&walls, s, make_vector(R(0.0), R(0.0), R(0.0)), x, y, z));
   sweep_particles(&a, p, slot_start, images);
