@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "wavetank/common/error.h"
@@ -143,9 +142,11 @@ WallMotions Coupling::to_end(double time_step, const std::vector<WallWrench>& wr
     loads[o].force += tank_at_middle_ * film_[o].force;
     loads[o].torque += tank_at_middle_ * film_[o].torque;
   }
-  const auto begin = std::chrono::steady_clock::now();
-  world_.advance(time_, time_step, loads);
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  world_time_.tick();
+  {
+    const Stopwatch::Lap lap(world_time_);
+    world_.advance(time_, time_step, loads);
+  }
   time_ += time_step;
   for (const int o : coupled_) {
     const RigidState state = world_.state(o);

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "wavetank/common/stopwatch.h"
 #include "wavetank/rigid/rigid_world.h"
 #include "wavetank/sph/solver.h"
 
@@ -27,8 +28,8 @@ class Coupling final : public WallMover {
   void set_time(double time) { time_ = time; }
   /// What presses on the owners in the next step besides the particles: one load an owner, in the tank's axes, or none.
   void set_film(std::vector<RigidLoad> loads) { film_ = std::move(loads); }
-  /// Wall time so far in the rigid world's steps, s.
-  double seconds() const { return seconds_; }
+  /// The rigid world's steps so far.
+  const Stopwatch& world_time() const { return world_time_; }
   /// The longest step in which the sound between the fluid and a free body does not grow, s; infinite without such bodies.
   double longest_time_step() const { return longest_time_step_; }
 
@@ -52,7 +53,7 @@ class Coupling final : public WallMover {
   std::vector<RigidLoad> film_;
   double longest_time_step_;
   double time_ = 0;
-  double seconds_ = 0;
+  Stopwatch world_time_;
   Quaterniond tank_at_middle_ = Quaterniond::Identity();
 };
 

@@ -458,8 +458,11 @@ std::string Simulation::summary() const {
 std::vector<KernelTime> Simulation::kernel_times() const {
   std::vector<KernelTime> times;
   for (const compute::KernelTiming& timing : parts_->device.timings()) times.push_back({timing.kernel, timing.launches, timing.seconds});
-  if (parts_->step > 0 && parts_->world.anything_moves())
-    times.push_back({"(host) bodies, contacts, joints", parts_->step, parts_->coupling.seconds()});
+  const auto add_host = [&times](const char* what, const Stopwatch& watch) {
+    if (watch.count() > 0) times.push_back({std::string("(host) ") + what, watch.count(), watch.seconds()});
+  };
+  add_host("bodies, contacts, joints", parts_->coupling.world_time());
+  add_host("water films", parts_->film.time());
   return times;
 }
 
@@ -492,7 +495,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   result.device_memory = static_cast<double>(solver->device_memory());
   result.time_step = std::min({discretisation.acoustic_time, discretisation.viscous_time, coupling.longest_time_step()});
   const double steps = (scene.duration + scene.numerics.packing.settling * discretisation.sound_period) / result.time_step;
-  result.wall_seconds = (steps + 0.5 * scene.numerics.packing.iterations) * step_seconds;
+  result.wall_seconds = (steps + 0.3 * scene.numerics.packing.iterations) * step_seconds;
   return result;
 }
 

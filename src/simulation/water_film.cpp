@@ -218,10 +218,16 @@ void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& fr
 }
 
 std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame) {
+  std::vector<Film> films;
+  {
+    const Stopwatch::Lap lap(time_);
+    films = find();
+  }
   std::vector<RigidLoad> loads(surfaces_.size());
-  std::vector<Film> films = find();
   if (films.empty()) return loads;
+  time_.tick();
   read(fluid, films);
+  const Stopwatch::Lap lap(time_);
   for (const Film& film : films) add_loads(film, frame, loads);
   return loads;
 }

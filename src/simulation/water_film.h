@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "wavetank/common/stopwatch.h"
 #include "wavetank/rigid/rigid_world.h"
 #include "wavetank/sph/solver.h"
 
@@ -25,6 +26,9 @@ class WaterFilm {
   /// The films' loads in the present state, one an owner about its reference point, in the tank's axes; `frame`: of a tank that moves. All
   /// zero, and nothing asked of the fluid, where no free body is near a wall.
   std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame);
+
+  /// Looking for films and solving them so far, without the fluid's part.
+  const Stopwatch& time() const { return time_; }
 
  private:
   struct Surface {  ///< an owner's walls, in the case's coordinates at its start
@@ -63,6 +67,7 @@ class WaterFilm {
   Vector3d gravity_;
   std::vector<Surface> surfaces_;
   std::unique_ptr<PointSet> points_;  ///< where the fluid was read last
+  Stopwatch time_;
 };
 
 }  // namespace wavetank

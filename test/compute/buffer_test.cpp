@@ -1,5 +1,6 @@
 #include "wavetank/compute/buffer.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -66,6 +67,19 @@ TEST_F(BufferTest, ReadsAndWritesParts) {
   buffer.memory().read(last, sizeof last, 2 * sizeof nine);
   EXPECT_EQ(last[0], 9);
   EXPECT_EQ(last[1], 4);
+}
+
+TEST_F(BufferTest, LetsWhatItWroteChangeAtOnce) {
+  constexpr int writes = 3000;  // more than is ever copied while the queue is behind
+  Buffer<int> buffer(device, 1000);
+  std::vector<int> values(buffer.size());
+  for (int k = 1; k <= writes; ++k) {
+    std::fill(values.begin(), values.end(), k);
+    buffer.upload(values);
+    std::fill(values.begin(), values.end(), -1);
+  }
+  EXPECT_EQ(buffer.download(), std::vector<int>(buffer.size(), writes));
+  EXPECT_EQ(buffer.download(2), std::vector<int>(2, writes));
 }
 
 TEST_F(BufferTest, RefusesToPassItsEnd) {

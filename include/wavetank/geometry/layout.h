@@ -29,6 +29,10 @@ struct Facet {
 /// A rectangle as two triangles (2-D: as one segment).
 std::vector<Facet> facets_of(const WallElement& element, int dimensions);
 
+/// Rectangles that lie side by side in one plane, about `spacing` (m) wide, as few larger ones that cover the same; in an order of their
+/// own.
+std::vector<WallElement> joined_rectangles(const std::vector<WallElement>& elements, double spacing, int dimensions);
+
 /// A case's geometry, sampled at the particle spacing: what the solver starts from.
 struct Layout {
   double spacing = 0;                ///< m

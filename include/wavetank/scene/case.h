@@ -236,7 +236,7 @@ struct WallCase {
 };
 
 struct PackingCase {
-  int iterations = 300;  ///< at most; 0 = start from the lattice
+  int iterations = 100;  ///< at most; 0 = start from the lattice
   double settling = 0;   ///< of damped steps before the start, in periods 4 H/c₀ of the slowest sound; 0 = none
 };
 
