@@ -65,3 +65,8 @@ get_filename_component(python_directory "${PYTHON_EXECUTABLE}" DIRECTORY)
 get_property(all_tests DIRECTORY PROPERTY TESTS)
 set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
   ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache")
+
+# Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for other processes or watches memory runs by itself.
+set(lone_tests ${all_tests})
+list(FILTER lone_tests EXCLUDE REGEX "_gtest_")
+set_tests_properties(${lone_tests} PROPERTIES RUN_SERIAL TRUE)

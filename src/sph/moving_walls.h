@@ -19,7 +19,7 @@ struct WallPose {
   bool operator==(const WallPose& other) const { return rest == other.rest && place == other.place && rotation == other.rotation; }
 };
 
-/// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the neighbour grid's lists are made
+/// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the cells' lists are made
 /// anew on the host, but only once a wall has moved by a part of the spacing since, by which the lists reach too far.
 template <class Real>
 class MovingWalls {

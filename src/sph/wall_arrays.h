@@ -8,7 +8,7 @@
 
 namespace wavetank {
 
-/// What the walls are made of on the device: elements of about the spacing, sorted by the neighbour grid's cells, or facets of any size, of
+/// What the walls are made of on the device: elements of about the spacing, sorted by cells of side R, or facets of any size, of
 /// which each cell has a list.
 enum class WallKind { rectangles, triangles, facets };
 

@@ -21,7 +21,7 @@ struct Discretisation {
   double sound_period =
       0;  ///< s, 4 H/c₀ of the slowest sound, H the greatest depth of a particle under its level; 0 without gravity along z
   bool splash_guard = true;  ///< above the rim, particles are kept within the tank's walls, taken upwards
-  int cells[3] = {0, 0, 0};  ///< of the neighbour grid, border included (2-D: y 1)
+  int cells[3] = {0, 0, 0};  ///< of side R, by which walls are found, border included (2-D: y 1)
   double acoustic_time = 0;  ///< bounds on Δt at rest, s
   double viscous_time = 0;
   double least_time_step = 0;  ///< a Δt below this has collapsed, s
@@ -33,7 +33,7 @@ double expected_speed(const Case& checked, const Layout& layout);
 /// The case with its automatic values settled: sound speed, spacing, support. `fastest_wall`: the greatest speed expected of any wall, m/s.
 Case settled(const Case& checked, const Layout& layout, double fastest_wall = 0);
 
-/// From a settled case. Throws Error if the neighbour grid would be larger than a device can index.
+/// From a settled case. Throws Error if the grid of cells would be larger than a device can index.
 Discretisation discretise(const Case& settled_case, const Layout& layout);
 
 }  // namespace wavetank
