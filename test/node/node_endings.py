@@ -119,8 +119,8 @@ class NodeEndings(unittest.TestCase):
             self.assertNotIn("/interrupted", str(rosgraph.Master("/test").getSystemState()))
 
     def test_ctrl_c_while_packing_ends_cleanly_and_leaves_no_bag(self):
-        fluid = {"spacing": 0.001}
-        node = self.start("packing", case_file=CASE, fluid=fluid, bag=self.path("a.bag"))
+        numerics = {"packing": {"iterations": 100000}}
+        node = self.start("packing", case_file=CASE, fluid={"spacing": 0.001}, numerics=numerics, bag=self.path("a.bag"))
         rospy.wait_for_message("/packing/status", SolverStatus, 60.0)
         begin = time.time()
         node.send_signal(signal.SIGINT)
