@@ -32,9 +32,15 @@ class Looker {
     }
   }
 
-  /// How thick the wall of an owner is behind a place; none if it is thicker than asked.
-  std::optional<double> look(const Vector3d& place, const Vector3d& normal, int owner) const {
-    std::optional<double> least;
+  /// The wall behind a place.
+  struct Behind {
+    double depth = 0;  ///< m
+    int facet = 0;     ///< that faces the other way
+  };
+
+  /// What an owner's wall has behind a place; none if it is thicker than asked.
+  std::optional<Behind> look(const Vector3d& place, const Vector3d& normal, int owner) const {
+    std::optional<Behind> least;
     if (!grid_) return least;
     const Vector3d end = place + thickness_ * normal, margin = Vector3d::Constant(tolerance_);
     for (const int f : grid_->overlapping({place.cwiseMin(end) - margin, place.cwiseMax(end) + margin})) {
@@ -42,12 +48,18 @@ class Looker {
       const double facing = facet.normal.dot(normal);
       if (facing > opposite || (owner != facet.owner && (moves(owner) || moves(facet.owner)))) continue;  // a body on the floor is no plate
       const double depth = facet.normal.dot(facet.plane_point - place) / facing;
-      if (depth < -tolerance_ || depth > std::min(thickness_, least.value_or(thickness_))) continue;
+      if (depth < -tolerance_ || depth > (least ? least->depth : thickness_)) continue;
       const Vector3d hit = place + depth * normal;
       if (((hit - boxes_[f].min).array() < -tolerance_).any() || ((hit - boxes_[f].max).array() > tolerance_).any()) continue;
-      if (covers(facet, hit)) least = std::max(depth, 0.0);
+      if (covers(facet, hit)) least = Behind{std::max(depth, 0.0), f};
     }
     return least;
+  }
+
+  /// Facets whose bounding boxes come near to a place.
+  std::vector<int> near(const Vector3d& place, double distance) const {
+    const Vector3d margin = Vector3d::Constant(distance);
+    return grid_ ? grid_->overlapping({place - margin, place + margin}) : std::vector<int>();
   }
 
  private:
@@ -118,51 +130,111 @@ bool is_rim(const Facet& facet, const Facet& face, double thickness, double tole
   return shared >= 1;
 }
 
-/// The free edges of thin facets. Neighbours share both ends of an edge; a sheet's two sides are no neighbours.
-std::vector<Brim> find_brims(const Layout& layout, const std::vector<bool>& thin, int dimensions) {
-  const double tolerance = 1e-3 * layout.spacing;
-  const auto same = [&](const Vector3d& a, const Vector3d& b) { return (a - b).norm() < tolerance; };
-  std::vector<Brim> brims;
-  for (std::size_t f = 0; f < layout.facets.size(); ++f) {
-    if (!thin[f]) continue;
-    const Facet& facet = layout.facets[f];
-    const int ends = dimensions == 2 ? 2 : 3;
-    for (int k = 0; k < ends; ++k) {
-      Brim brim;
-      brim.from = facet.corners[k];
-      brim.to = dimensions == 2 ? brim.from : facet.corners[(k + 1) % 3];
-      brim.face_normal = facet.normal;
-      brim.owner = facet.owner;
-      const Vector3d opposite_corner = dimensions == 2 ? facet.corners[1 - k] : facet.corners[(k + 2) % 3];
-      Vector3d inwards = opposite_corner - brim.from;
-      if (dimensions == 3) {
-        const Vector3d way = (brim.to - brim.from).normalized();
-        inwards -= way.dot(inwards) * way;
-      }
-      brim.inwards = inwards.normalized();
-      bool goes_on = false, stands_on_wall = false;
-      const Vector3d middle = 0.5 * (brim.from + brim.to);
-      for (std::size_t g = 0; g < layout.facets.size() && !goes_on && !stands_on_wall; ++g) {
-        if (g == f) continue;
-        const Facet& other = layout.facets[g];
-        int shared = 0;
-        for (int c = 0; c < ends; ++c) shared += same(other.corners[c], brim.from) || same(other.corners[c], brim.to) ? 1 : 0;
-        const bool neighbours = other.owner == facet.owner && shared >= (dimensions == 2 ? 1 : 2);
-        if (neighbours && thin[g]) {
-          const double facing = other.normal.dot(facet.normal);
-          if (facing < opposite) continue;  // the sheet's other side
-          goes_on = facing > 1 - 1e-9;
-          brim.has_other = true;
-          brim.other_normal = other.normal;
-          continue;
-        }
-        stands_on_wall = same(nearest_on_triangle(middle, other.corners[0], other.corners[1], other.corners[2]), middle) && !thin[g];
-      }
-      if (!goes_on && !stands_on_wall) brims.push_back(brim);
+/// The edge of a facet after its corner k (2-D: the end k of a segment).
+struct FacetEdge {
+  Vector3d from, to, middle;
+  Vector3d inwards;  ///< unit, in the facet's plane from the edge onto it
+
+  FacetEdge(const Facet& facet, int k, int dimensions) : from(facet.corners[k]), to(dimensions == 2 ? from : facet.corners[(k + 1) % 3]) {
+    middle = 0.5 * (from + to);
+    inwards = (dimensions == 2 ? facet.corners[1 - k] : facet.corners[(k + 2) % 3]) - from;
+    if (dimensions == 3) {
+      const Vector3d way = (to - from).normalized();
+      inwards -= way.dot(inwards) * way;
     }
+    inwards.normalize();
   }
-  return brims;
-}
+};
+
+/// What a thin part does at an edge of one of its facets.
+enum class EdgeKind {
+  inner,  ///< it goes on
+  closed, ///< another wall stands there, or it turns towards the water
+  outer   ///< it ends, or turns away from the water
+};
+
+/// Finds the free edges of thin facets.
+class EdgeFinder {
+ public:
+  EdgeFinder(const Layout& layout, const std::vector<Thin>& thin, const Looker& looker, int dimensions)
+      : facets_(layout.facets), moving_(layout.moving), thin_(thin), looker_(looker), dimensions_(dimensions), tolerance_(1e-3 * layout.spacing) {}
+
+  std::vector<FreeEdge> find() const {
+    std::vector<FreeEdge> edges;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (thin_[f] != Thin::yes) continue;
+      for (int k = 0; k < ends(); ++k)
+        if (is_free(static_cast<int>(f), k)) edges.push_back({FacetEdge(facets_[f], k, dimensions_).from, FacetEdge(facets_[f], k, dimensions_).to, facets_[f].owner});
+    }
+    return edges;
+  }
+
+ private:
+  static constexpr double same_way = 0.85;      // cosine of the normals of two facets of one curved face
+  static constexpr double towards_water = -0.1;  // of a neighbour's way from the edge, along the normal
+
+  int ends() const { return dimensions_ == 2 ? 2 : 3; }
+  bool moves(int owner) const { return static_cast<std::size_t>(owner) < moving_.size() && moving_[owner]; }
+
+  double distance(const Facet& facet, const Vector3d& place) const {
+    return (nearest_on_triangle(place, facet.corners[0], facet.corners[1], facet.corners[dimensions_ == 2 ? 1 : 2]) - place).norm();
+  }
+
+  /// The edge of a facet on which a place lies; -1: inside of it.
+  int edge_at(const Facet& facet, const Vector3d& place) const {
+    for (int k = 0; k < ends(); ++k) {
+      const Vector3d from = facet.corners[k], to = dimensions_ == 2 ? from : facet.corners[(k + 1) % 3];
+      if ((nearest_on_triangle(place, from, to, to) - place).norm() < tolerance_) return k;
+    }
+    return -1;
+  }
+
+  EdgeKind kind(int f, int k) const {
+    const Facet& facet = facets_[f];
+    const FacetEdge edge(facet, k, dimensions_);
+    EdgeKind found = EdgeKind::outer;
+    for (const int g : looker_.near(edge.middle, tolerance_)) {
+      const Facet& other = facets_[g];
+      if (g == f || distance(other, edge.middle) > tolerance_) continue;
+      if (other.owner != facet.owner) {
+        if (!moves(other.owner) && !moves(facet.owner)) found = EdgeKind::closed;
+        continue;  // else it may be left: the solver looks where the other one is
+      }
+      const double facing = other.normal.dot(facet.normal);
+      const int at = edge_at(other, edge.middle);
+      if (facing < opposite) continue;  // the other side of the sheet
+      if (facing > same_way && (at < 0 || FacetEdge(other, at, dimensions_).inwards.dot(edge.inwards) < 0)) {
+        if (thin_[g] != Thin::no) return EdgeKind::inner;
+        continue;
+      }
+      if (at < 0 || FacetEdge(other, at, dimensions_).inwards.dot(facet.normal) < towards_water) found = EdgeKind::closed;
+    }
+    return found;
+  }
+
+  /// Both sides of the part end here.
+  bool is_free(int f, int k) const {
+    if (kind(f, k) != EdgeKind::outer) return false;
+    const FacetEdge edge(facets_[f], k, dimensions_);
+    const std::optional<Looker::Behind> behind = looker_.look(edge.middle + 2 * tolerance_ * edge.inwards, facets_[f].normal, facets_[f].owner);
+    if (!behind) return false;
+    const Facet& other = facets_[behind->facet];
+    const Vector3d across = edge.middle + behind->depth * facets_[f].normal;
+    for (int m = 0; m < ends(); ++m) {
+      const FacetEdge back(other, m, dimensions_);
+      const Vector3d nearest = nearest_on_triangle(across, back.from, back.to, back.to);
+      if ((nearest - across).norm() < behind->depth + 4 * tolerance_ && kind(behind->facet, m) == EdgeKind::outer) return true;
+    }
+    return false;
+  }
+
+  const std::vector<Facet>& facets_;
+  const std::vector<bool>& moving_;
+  const std::vector<Thin>& thin_;
+  const Looker& looker_;
+  int dimensions_;
+  double tolerance_;
+};
 
 }  // namespace
 
@@ -170,29 +242,41 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   ThinParts parts;
   const Looker looker(layout, dimensions, thickness);
   for (const Facet& facet : layout.facets) {
-    bool thin = false;
+    Thin thin = Thin::no;
     for (const Vector3d& place : places_on(facet, dimensions)) {
-      const std::optional<double> found = looker.look(place, facet.normal, facet.owner);
+      const std::optional<Looker::Behind> found = looker.look(place, facet.normal, facet.owner);
       if (!found) continue;
-      thin = true;
-      if (!parts.thinnest || *found < parts.thinnest->thickness) parts.thinnest = ThinWall{facet.owner, *found, place};
+      thin = Thin::yes;
+      if (!parts.thinnest || found->depth < parts.thinnest->thickness) parts.thinnest = ThinWall{facet.owner, found->depth, place};
     }
     parts.facets.push_back(thin);
   }
-  const std::vector<bool> faces = parts.facets;
+  const double tolerance = 1e-3 * layout.spacing;
+  const std::vector<Thin> faces = parts.facets;
   if (parts.thinnest) {
     for (std::size_t r = 0; r < faces.size(); ++r)
-      for (std::size_t f = 0; f < faces.size() && !parts.facets[r]; ++f)
-        if (faces[f]) parts.facets[r] = is_rim(layout.facets[r], layout.facets[f], thickness, 1e-3 * layout.spacing);
+      for (std::size_t f = 0; f < faces.size() && parts.facets[r] == Thin::no; ++f)
+        if (faces[f] == Thin::yes && is_rim(layout.facets[r], layout.facets[f], thickness, tolerance)) parts.facets[r] = Thin::rim;
+    parts.free_edges = EdgeFinder(layout, parts.facets, looker, dimensions).find();
   }
-  if (parts.thinnest) parts.brims = find_brims(layout, parts.facets, dimensions);
+  const auto on_rim = [&](const Vector3d& centre, const Vector3d& normal, int owner) {
+    for (const int f : looker.near(centre, tolerance)) {
+      const Facet& facet = layout.facets[f];
+      if (parts.facets[f] == Thin::rim && facet.owner == owner && facet.normal.dot(normal) > 0.99) return true;
+    }
+    return false;
+  };
+  const auto piece = [&](const Vector3d& centre, const Vector3d& normal, int owner) {
+    if (!parts.thinnest) return Thin::no;
+    if (looker.look(centre, normal, owner)) return Thin::yes;
+    return on_rim(centre, normal, owner) ? Thin::rim : Thin::no;
+  };
   for (const Facet& triangle : layout.triangles) {
     const Vector3d middle = dimensions == 2 ? Vector3d(0.5 * (triangle.corners[0] + triangle.corners[1]))
                                             : Vector3d((triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0);
-    parts.triangles.push_back(parts.thinnest && looker.look(middle, triangle.normal, triangle.owner).has_value());
+    parts.triangles.push_back(piece(middle, triangle.normal, triangle.owner));
   }
-  for (const WallElement& wall : layout.walls)
-    parts.walls.push_back(parts.thinnest && looker.look(wall.centre, wall.normal, wall.owner).has_value());
+  for (const WallElement& wall : layout.walls) parts.walls.push_back(piece(wall.centre, wall.normal, wall.owner));
   return parts;
 }
 

@@ -23,9 +23,9 @@ constexpr double opposite = -0.5;
 // Walls face each other if they lean less than 45° from it.
 constexpr double facing = -0.7;
 
-// Particles beside a covered face press on what of it is in their reach: by p times their Σ W V at an element over this. Measured as what
-// the fluid's force on boxes flush on the floor in still water lacks of suction: 0.210 in 2-D with R/Δx = 4, 0.208 in 3-D with 3.
-constexpr double full_wetness = 0.21;
+// Particles beside a covered face press on what of it is in their reach, by 2 p times their Σ W V at an element: a face in open water has a
+// half of its kernel filled.
+constexpr double full_wetness = 0.5;
 
 Vector3d nearest_on_segment(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const Vector3d side = b - a;

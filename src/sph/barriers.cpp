@@ -1,6 +1,7 @@
 #include "barriers.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "wall_cells.h"
 
@@ -33,56 +34,76 @@ std::vector<Real> plane_values(const std::vector<Facet>& facets, const Discretis
   return values;
 }
 
-/// As brim.cl has brims.
+// of the spacing: water passes between a free edge and another owner's wall that is farther than the second from it, and not below the first
+constexpr double closed_gap = 0.5, open_gap = 1.0;
+
+// of the support: how far from a free edge the water on one side of a thin wall may feel that on the other (neighbours.cl)
+constexpr double edge_reach = 1.5;
+
+/// How far an edge is from other owners' walls, up to `reach`: the greatest of some places along it, since water passes where it is open.
+double gap_at(const FreeEdge& edge, const std::vector<Facet>& walls, int dimensions, double reach) {
+  Eigen::AlignedBox3d about(edge.from);
+  about.extend(edge.to);
+  about.min().array() -= reach;
+  about.max().array() += reach;
+  const double parts[] = {0.1, 0.5, 0.9};
+  double gaps[] = {reach, reach, reach};
+  for (const Facet& wall : walls) {
+    if (wall.owner == edge.owner) continue;
+    Eigen::AlignedBox3d box(wall.corners[0]);
+    for (int k = 1; k < dimensions; ++k) box.extend(wall.corners[k]);
+    if (!box.intersects(about)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d place = edge.from + parts[k] * (edge.to - edge.from);
+      const Vector3d nearest = nearest_on_triangle(place, wall.corners[0], wall.corners[1], wall.corners[dimensions == 2 ? 1 : 2]);
+      gaps[k] = std::min(gaps[k], (nearest - place).norm());
+    }
+  }
+  return *std::max_element(gaps, gaps + 3);
+}
+
+/// As neighbours.cl has free edges.
 template <class Real>
-std::vector<Real> brim_values(const std::vector<Brim>& brims, const Discretisation& d) {
+std::vector<Real> edge_values(const std::vector<FreeEdge>& edges, const std::vector<Facet>& walls, const Discretisation& d) {
   std::vector<Real> values;
   const auto add = [&](const Vector3d& vector) {
     for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(vector[axis]));
   };
-  for (const Brim& brim : brims) {
-    const double length = (brim.to - brim.from).norm();
-    const std::size_t end = values.size() + field::brim_count;
-    add(brim.from - d.origin);
-    add(d.dimensions == 2 ? Vector3d::UnitY() : Vector3d((brim.to - brim.from) / length));
+  for (const FreeEdge& edge : edges) {
+    const double length = (edge.to - edge.from).norm();
+    const double gap = gap_at(edge, walls, d.dimensions, open_gap * d.spacing) / d.spacing;
+    add(edge.from - d.origin);
+    add(d.dimensions == 2 ? Vector3d::UnitY() : Vector3d((edge.to - edge.from) / length));
     values.push_back(static_cast<Real>(length));
-    add(brim.face_normal);
-    add(brim.inwards);
-    add(brim.has_other ? brim.other_normal : Vector3d::Zero());
-    values.push_back(brim.has_other ? Real(1) : Real(0));
-    values.resize(end, Real(0));
+    values.push_back(static_cast<Real>(std::clamp((gap - closed_gap) / (open_gap - closed_gap), 0.0, 1.0)));
   }
   return values;
 }
 
-/// Without an area, for their cells.
-std::vector<Facet> facets_along(const std::vector<Brim>& brims) {
-  std::vector<Facet> facets(brims.size());
-  for (std::size_t b = 0; b < brims.size(); ++b) {
-    facets[b].corners[0] = brims[b].from;
-    facets[b].corners[1] = facets[b].corners[2] = brims[b].to;
+/// The cells from which an edge is within reach.
+CellOrder edges_by_cell(const std::vector<FreeEdge>& edges, const Discretisation& d) {
+  CellPairs pairs;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    Facet along;
+    along.corners[0] = edges[e].from;
+    along.corners[1] = along.corners[2] = edges[e].to;
+    add_cells_of(along, static_cast<int>(e), (edge_reach - 1) * d.support, d, pairs);
   }
-  return facets;
+  return lists_of(std::move(pairs), d);
 }
 
 }  // namespace
 
 template <class Real>
-Barriers<Real>::Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& edges,
-                         const Discretisation& d) {
-  place(device, facets, edges, d);
-}
-
-template <class Real>
-void Barriers<Real>::place(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& edges,
-                           const Discretisation& d) {
-  const CellOrder cells = facets_by_cell(facets, d), brim_cells = facets_by_cell(facets_along(edges), d);
+void Barriers<Real>::place(const compute::Device& device, const std::vector<Facet>& plates, const std::vector<FreeEdge>& free_edges,
+                           const std::vector<Facet>& walls, const Discretisation& d) {
+  const CellOrder cells = facets_by_cell(plates, d), edge_cells = edges_by_cell(free_edges, d);
   starts.set(device, cells.begin);
   list.set(device, cells.order);
-  planes.set(device, plane_values<Real>(facets, d));
-  brim_starts.set(device, brim_cells.begin);
-  brim_list.set(device, brim_cells.order);
-  brims.set(device, brim_values<Real>(edges, d));
+  planes.set(device, plane_values<Real>(plates, d));
+  edge_starts.set(device, edge_cells.begin);
+  edge_list.set(device, edge_cells.order);
+  edges.set(device, edge_values<Real>(free_edges, walls, d));
 }
 
 std::vector<Facet> moved(std::vector<Facet> facets, const std::vector<WallPose>& poses) {
@@ -95,14 +116,12 @@ std::vector<Facet> moved(std::vector<Facet> facets, const std::vector<WallPose>&
   return facets;
 }
 
-std::vector<Brim> moved(std::vector<Brim> brims, const std::vector<WallPose>& poses) {
-  for (Brim& brim : brims) {
-    const WallPose& pose = poses[brim.owner];
-    brim.from = pose.of(brim.from);
-    brim.to = pose.of(brim.to);
-    for (Vector3d* vector : {&brim.face_normal, &brim.inwards, &brim.other_normal}) *vector = pose.rotation * *vector;
+std::vector<FreeEdge> moved(std::vector<FreeEdge> edges, const std::vector<WallPose>& poses) {
+  for (FreeEdge& edge : edges) {
+    edge.from = poses[edge.owner].of(edge.from);
+    edge.to = poses[edge.owner].of(edge.to);
   }
-  return brims;
+  return edges;
 }
 
 template struct Barriers<float>;

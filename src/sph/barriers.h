@@ -8,25 +8,22 @@
 
 namespace wavetank {
 
-/// Thin walls on the device, that the water does not see through.
+/// Thin walls on the device, that the water does not see through but about their free edges.
 template <class Real>
 struct Barriers {
   Barriers() = default;
-  Barriers(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& brims,
-           const Discretisation& discretisation);
-
-  /// Facets and brims may have moved since.
-  void place(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Brim>& brims,
-             const Discretisation& discretisation);
+  /// `plates`: the thin ones of `walls`, which are all of them. All where they are now.
+  void place(const compute::Device& device, const std::vector<Facet>& plates, const std::vector<FreeEdge>& edges,
+             const std::vector<Facet>& walls, const Discretisation& discretisation);
 
   KeptBuffer<int> starts, list;  ///< by cell
   KeptBuffer<Real> planes;       ///< field::barrier_count values each
-  KeptBuffer<int> brim_starts, brim_list;
-  KeptBuffer<Real> brims;  ///< field::brim_count values each
+  KeptBuffer<int> edge_starts, edge_list;
+  KeptBuffer<Real> edges;  ///< field::free_edge_count values each
 };
 
 /// Where poses, one an owner, take thin walls.
 std::vector<Facet> moved(std::vector<Facet> facets, const std::vector<WallPose>& poses);
-std::vector<Brim> moved(std::vector<Brim> brims, const std::vector<WallPose>& poses);
+std::vector<FreeEdge> moved(std::vector<FreeEdge> edges, const std::vector<WallPose>& poses);
 
 }  // namespace wavetank

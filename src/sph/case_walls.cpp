@@ -23,7 +23,7 @@ CaseWalls::CaseWalls(const Case& scene, const Layout& layout, const Discretisati
       thin_(find_thin_parts(layout, scene.dimensions, discretisation.support)),
       closed_(walls_and_lid(layout)) {
   for (std::size_t f = 0; f < layout.facets.size(); ++f)
-    if (thin_.facets[f]) thin_facets_.push_back(layout.facets[f]);
+    if (thin_.facets[f] != Thin::no) thin_facets_.push_back(layout.facets[f]);
 }
 
 template <class Real>
@@ -41,8 +41,8 @@ WallArrays<Real> CaseWalls::arrays(const compute::Device& device, bool own, cons
     const std::vector<Facet> parts = facets_of(element, dimensions_);
     facets.insert(facets.end(), parts.begin(), parts.end());
   }
-  const std::vector<bool> none;
-  const std::vector<bool>& thin = kind_ == WallKind::facets ? thin_.facets : thin_.triangles;
+  const std::vector<Thin> none;
+  const std::vector<Thin>& thin = kind_ == WallKind::facets ? thin_.facets : thin_.triangles;
   return WallArrays<Real>(device, facets, own ? thin : none, kind_, discretisation_);
 }
 

@@ -16,11 +16,14 @@ class CaseWalls {
   WallKind kind() const { return kind_; }
   const ThinParts& thin() const { return thin_; }
   const std::vector<Facet>& thin_facets() const { return thin_facets_; }
+  const std::vector<Facet>& facets() const { return closed_.facets; }
 
   /// With or without the case's own walls.
   template <class Real>
   WallArrays<Real> arrays(const compute::Device& device, bool own, const std::vector<WallElement>& lid) const;
   const std::vector<WallElement>& lid() const { return closed_.lid; }
+  /// The walls as pieces of about the spacing, whatever the elements are.
+  const std::vector<WallElement>& pieces() const { return closed_.walls; }
   /// Of the lid what holds the water up or to the side, as settling needs it.
   std::vector<WallElement> supporting_lid() const;
 

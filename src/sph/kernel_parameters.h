@@ -48,7 +48,7 @@ enum Wall {
 };
 constexpr int edge_count = 8;
 constexpr int barrier_count = 16;
-constexpr int brim_count = 20;
+constexpr int free_edge_count = 8;
 constexpr int image_count = 37;
 constexpr int frame_count = 12;
 constexpr int motion_count = 18;
@@ -56,6 +56,7 @@ enum Region { region_owner, region_item, region_slot_x, region_row_y, region_row
 constexpr int region_run = 32;
 constexpr int wrench_count = 12;
 constexpr int guard_owners = 2;
+constexpr int facing_owners = 2;
 constexpr int impulse_count = 6;
 constexpr int watch_count = 2;
 constexpr int energy_count = 7;

@@ -40,6 +40,18 @@ int fields_of(WallKind kind, int dimensions) {
 }  // namespace
 
 template <class Real>
+std::vector<Real> pose_values(const std::vector<WallPose>& poses, const Discretisation& discretisation) {
+  std::vector<Real> values;
+  for (const WallPose& pose : poses) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) values.push_back(static_cast<Real>(pose.rotation(row, column)));
+    const Vector3d shift = pose.of(discretisation.origin) - discretisation.origin;
+    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(shift[axis]));
+  }
+  return values;
+}
+
+template <class Real>
 MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
                                const WallArrays<Real>& walls, const std::vector<bool>& moving, const std::vector<Vector3d>& centres,
                                const Discretisation& discretisation)
@@ -154,14 +166,7 @@ void MovingWalls<Real>::place(WallArrays<Real>& walls, const std::vector<WallPos
 /// `resorted`: elements stand in other slots than before.
 template <class Real>
 void MovingWalls<Real>::move(WallArrays<Real>& walls, const std::vector<WallPose>& poses, bool resorted) {
-  std::vector<Real> values;
-  for (const WallPose& pose : poses) {
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) values.push_back(static_cast<Real>(pose.rotation(row, column)));
-    const Vector3d shift = pose.of(discretisation_.origin) - discretisation_.origin;
-    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(shift[axis]));
-  }
-  if (!poses_.set(device_, values) && !resorted) return;
+  if (!poses_.set(device_, pose_values<Real>(poses, discretisation_)) && !resorted) return;
   const bool elements = walls.kind != WallKind::facets;
   const compute::Buffer<int>& slots = resorted && elements ? all_ : slots_;
   const int count = static_cast<int>(slots.size());
@@ -169,6 +174,8 @@ void MovingWalls<Real>::move(WallArrays<Real>& walls, const std::vector<WallPose
   place_.launch(count, count, field_count_, from_field, from_wall, slots, from_, kinds_, poses_.on_device(), rest_, walls.fields);
 }
 
+template std::vector<float> pose_values(const std::vector<WallPose>&, const Discretisation&);
+template std::vector<double> pose_values(const std::vector<WallPose>&, const Discretisation&);
 template class MovingWalls<float>;
 template class MovingWalls<double>;
 

@@ -19,6 +19,10 @@ struct WallPose {
   bool operator==(const WallPose& other) const { return rest == other.rest && place == other.place && rotation == other.rotation; }
 };
 
+/// Of each owner a rotation, row by row, and a shift, which take places relative to the grid's origin to where they are now.
+template <class Real>
+std::vector<Real> pose_values(const std::vector<WallPose>& poses, const Discretisation& discretisation);
+
 /// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the cells' lists are made
 /// anew on the host, but only once a wall has moved by a part of the spacing since, by which the lists reach too far.
 template <class Real>

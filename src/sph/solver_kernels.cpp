@@ -21,6 +21,7 @@ SolverKernels::SolverKernels(const compute::Device& device, const compute::Sourc
   gradient = of_particles("density_gradient.cl", "density_gradient");
   if (elements) loads = of_points("wall_loads.cl", "wall_loads");
   packing = of_particles("packing.cl", "packing");
+  facing_walls = of_points("facing_walls.cl", "facing_walls");
   guard.kernel = kernel_of("guard.cl", "guard", options);
   points = of_points("points.cl", "points");
   surface = of_particles("points.cl", "surface");
@@ -38,6 +39,8 @@ SolverKernels::SolverKernels(const compute::Device& device, const compute::Sourc
   energy_chunks = reduce.kernel("energy_chunks");
   energy_total = reduce.kernel("energy_total");
   wrench_totals = reduce.kernel("wrench_totals");
+  facing_chunks = reduce.kernel("facing_chunks");
+  facing_totals = reduce.kernel("facing_totals");
   packing_total = reduce.kernel("packing_total");
 }
 

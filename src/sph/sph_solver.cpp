@@ -59,7 +59,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       images_(tank_images(scene, layout, discretisation)),
       walls_(case_walls_.arrays<Real>(device, true, {})),
       loads_(device, elements_ ? walls_.stride : 1),
-      wrenches_(device, discretisation, grid_shape_, boxes_, !images_.empty()),
+      wrenches_(device, discretisation, grid_shape_, boxes_, ghosts_ ? std::vector<WallElement>() : case_walls_.pieces(), !images_.empty()),
       guarded_(device, anything_free(scene), count_, stride_, centres.size()),
       report_(device, field::report_impulses + guarded_.values().size()),
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
@@ -77,7 +77,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   surroundings_.stride = stride_;
   surroundings_.reach = values_.support;
   surroundings_.grid = ParticleGrid(device, sources_, options_, grid_shape_.slots(), count_);
-  surroundings_.barriers = Barriers<Real>(device, case_walls_.thin_facets(), case_walls_.thin().brims, discretisation_);
+  surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   if (owners_move) moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, discretisation_);
   build_kernels();
@@ -169,7 +169,8 @@ template <class Real>
 void SphSolver<Real>::place_barriers() {
   const std::vector<Facet>& plates = case_walls_.thin_facets();
   if (std::none_of(plates.begin(), plates.end(), [this](const Facet& plate) { return static_cast<bool>(moving_[plate.owner]); })) return;
-  surroundings_.barriers.place(device_, moved(plates, poses_), moved(case_walls_.thin().brims, poses_), discretisation_);
+  surroundings_.barriers.place(device_, moved(plates, poses_), moved(case_walls_.thin().free_edges, poses_), moved(case_walls_.facets(), poses_),
+                               discretisation_);
 }
 
 template <class Real>

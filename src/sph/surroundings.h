@@ -18,8 +18,8 @@ struct Surroundings {
   void sweep(const SweepKernel& sweep, int count, const Buffer& state, const WallArrays<Real>& walls, const Others&... others) const {
     sweep.kernel.launch((count + sweep.own - 1) / sweep.own, parameters, count, grid.starts(), state, stride, reach, walls.starts,
                         walls.list, walls.fields, walls.stride, motions.on_device(), barriers.starts.on_device(), barriers.list.on_device(),
-                        barriers.planes.on_device(), barriers.brim_starts.on_device(), barriers.brim_list.on_device(),
-                        barriers.brims.on_device(), images, others...);
+                        barriers.planes.on_device(), barriers.edge_starts.on_device(), barriers.edge_list.on_device(),
+                        barriers.edges.on_device(), images, others...);
   }
 
   compute::Buffer<char> parameters;

@@ -37,7 +37,9 @@ class Fields {
 };
 
 /// The list may end before the walls do: a lid is not thin.
-bool is_thin(const std::vector<bool>& thin, int s) { return static_cast<std::size_t>(s) < thin.size() && thin[s]; }
+double thin_value(const std::vector<Thin>& thin, int s) {
+  return static_cast<std::size_t>(s) < thin.size() ? static_cast<double>(thin[s]) : 0.0;
+}
 
 bool comes_first(const Vector3d& a, const Vector3d& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
@@ -113,7 +115,7 @@ Facet turned_left(Facet facet, int dimensions) {
 }
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const std::vector<bool>& thin,
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<WallElement>& elements, const std::vector<Thin>& thin,
                              const Discretisation& d)
     : kind(WallKind::rectangles), count(static_cast<int>(elements.size())), stride(std::max(count, 1)), list(device, 1) {
   std::vector<Vector3d> centres;
@@ -125,7 +127,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
     values.set_place(field::wall_x, s, element.centre);
     values.set_vector(field::normal_x, s, element.normal);
     values.set(field::wall_owner, s, element.owner);
-    values.set(field::wall_thin, s, is_thin(thin, cells.order[s]) ? 1.0 : 0.0);
+    values.set(field::wall_thin, s, thin_value(thin, cells.order[s]));
     values.set_vector(field::tangent_x, s, element.tangent);
     values.set(field::area, s, element.area);
     values.set(field::half_along, s, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
@@ -144,7 +146,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
 }
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind given,
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Thin>& thin, WallKind given,
                              const Discretisation& d)
     : kind(given), count(static_cast<int>(facets.size())), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
@@ -162,7 +164,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     shapes.push_back(facet);
     values.set_vector(field::normal_x, s, facet.normal);
     values.set(field::wall_owner, s, facet.owner);
-    values.set(field::wall_thin, s, is_thin(thin, source) ? 1.0 : 0.0);
+    values.set(field::wall_thin, s, thin_value(thin, source));
     values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
     const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
     if (whole) {

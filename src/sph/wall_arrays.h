@@ -4,7 +4,7 @@
 
 #include "kernel_parameters.h"
 #include "wavetank/compute/buffer.h"
-#include "wavetank/geometry/layout.h"
+#include "wavetank/geometry/thin_walls.h"
 
 namespace wavetank {
 
@@ -16,10 +16,10 @@ enum class WallKind { rectangles, triangles, facets };
 template <class Real>
 struct WallArrays {
   WallArrays() = default;
-  WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const std::vector<bool>& thin,
+  WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const std::vector<Thin>& thin,
              const Discretisation& discretisation);
   /// `kind`: triangles or facets.
-  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<bool>& thin, WallKind kind,
+  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Thin>& thin, WallKind kind,
              const Discretisation& discretisation);
 
   WallKind kind = WallKind::facets;

@@ -23,18 +23,21 @@ Box moved(const Box& box, const WallPose& pose) {
 
 template <class Real>
 WallWrenches<Real>::WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid,
-                                 const std::vector<Box>& boxes, bool everywhere)
+                                 const std::vector<Box>& boxes, const std::vector<WallElement>& pieces,
+                                 bool everywhere)
     : device_(device),
       discretisation_(discretisation),
       grid_(grid),
       boxes_(boxes),
       everywhere_(everywhere),
+      facing_(device, pieces, discretisation),
       totals_(device, boxes.size() * field::wrench_count) {}
 
 template <class Real>
 void WallWrenches<Real>::set_poses(const std::vector<WallPose>& poses) {
   if (poses == poses_) return;
   poses_ = poses;
+  facing_.set_poses(poses);
   region_owners_.clear();
 }
 
@@ -77,6 +80,7 @@ std::vector<WallWrench> WallWrenches<Real>::find(const SolverKernels& kernels, c
   const int regions = static_cast<int>(owners.size());
   surroundings.sweep(kernels.wall_forces, region_items_, state, walls, loads, regions, regions_.on_device(), parts_);
   kernels.wrench_totals.launch(regions, regions, region_items_, regions_.on_device(), parts_, totals_);
+  facing_.add(kernels, surroundings, state, walls, regions, regions_.on_device(), totals_);
   const std::vector<Real> totals = totals_.download(owners.size() * field::wrench_count);
   std::vector<WallWrench> result(owners.size());
   for (std::size_t k = 0; k < owners.size(); ++k)

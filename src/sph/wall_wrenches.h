@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "solver_kernels.h"
-#include "surroundings.h"
+#include "facing_walls.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
@@ -12,9 +11,10 @@ namespace wavetank {
 template <class Real>
 class WallWrenches {
  public:
-  /// `boxes`: about each owner's walls at rest; `everywhere`: images bring an owner's walls to particles far from it.
+  /// `boxes`: about each owner's walls at rest; `pieces`: those walls, each about a spacing wide; `everywhere`: images bring an owner's walls
+  /// to particles far from it.
   WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid, const std::vector<Box>& boxes,
-               bool everywhere);
+               const std::vector<WallElement>& pieces, bool everywhere);
 
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
@@ -30,6 +30,7 @@ class WallWrenches {
   GridShape grid_;
   std::vector<Box> boxes_;
   bool everywhere_ = false;
+  FacingWalls<Real> facing_;
   std::vector<WallPose> poses_;
   compute::Buffer<Real> parts_, totals_;
   KeptBuffer<int> regions_;

@@ -77,6 +77,7 @@ typedef struct {
 // Of how many owners of walls the guard tells apart what they take from one particle.
 #define GUARD_OWNERS 2
 #define NO_OWNER (-1)
+#define FACING_OWNERS 2       // other owners whose walls a piece of wall may face nearer than the support
 #define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
 
 // By its bits: fast-math deletes a comparison with itself.

@@ -10,7 +10,7 @@ typedef struct {
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_volume(&a->near, j);
   const tile weighted = slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression);
   a->sum_x += weighted * rx;
   a->sum_z += weighted * rz;
@@ -51,7 +51,7 @@ __kernel void density_gradient(__constant const parameters_t* p, int count, __gl
                                real reach, WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   a.compression = own_values(state + FIELD_COMPRESSION * stride, first);

@@ -7,12 +7,13 @@
 //
 // Built with WALL_FORCES, the same sums give what the fluid does to one owner of walls: of each particle's force all that is not an exchange with other
 // particles, V_i [(1/γ_i − 1) Σ_j … + 1/γ_i Σ_s …]. So the walls get exactly what the fluid loses, whatever the elements and the Shepard factor are.
-// (Σ_s alone, the walls' direct share, is 2 ln 2 = 1.39 times the pressure on a flat wall: dividing by γ makes the exchange between particles unequal.)
+// Where walls of several owners are near, each has its own Σ_s. The rest, (1/γ_i − 1) (Σ_j + Σ_s), is what is missing of the particle's exchange in the
+// part of its support that lies behind walls; it is shared by how much of that part lies behind each. What the water missing behind one owner would do to
+// another's walls is not here: facing_walls.cl.
 #include "walls.cl"
 #include "linear_fit.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
-#define SWEEP_BRIMS
 #define NEEDS_FIT (FACETS || THIN_WALLS)
 
 typedef struct {
@@ -26,6 +27,9 @@ typedef struct {
 #endif
 #endif
   tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
+#if WALL_FORCES && THIN_WALLS
+  tile across_x, across_y, across_z;  // of that the part of neighbours that thin walls hide: it goes through the wall, which has it
+#endif
 #if WALL_FORCES || VISCOSITY_MORRIS
   tile viscous_x, viscous_y, viscous_z;
 #endif
@@ -51,13 +55,14 @@ typedef struct {
   int owner;
   bool looking;          // only for whether the owner's walls are near
   real weight, touched;  // Σ ∫ W dS over all walls and over the owner's
+  real beyond, behind;   // of the support, what lies beyond all walls and what behind the owner's
   vector_t touched_at;   // Σ ∫ y W dS over the owner's
   vector_t push, drag;   // of the owner's walls
 #endif
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile volume = near_field(&a->near, FIELD_VOLUME, j);
+  const tile volume = near_volume(&a->near, j);
   const tile distance = sqrt(r2);
   const tile slope_volume = kernel_slopes(p, distance) * volume;
 #if SHEPARD_VOLUMETRIC
@@ -110,6 +115,13 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #if DIMENSIONS == 3
   a->force_y += central * ry;
 #endif
+#if WALL_FORCES && THIN_WALLS
+  if (a->near.hiding) {
+    a->across_x += central * rx;
+    a->across_y += central * ry;
+    a->across_z += central * rz;
+  }
+#endif
 }
 
 #if NEEDS_FIT
@@ -150,6 +162,8 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   if (own) a->touched += c.weight;
   if (a->looking) return;
   a->weight += c.weight;
+  a->beyond -= c.shepard;
+  if (own) a->behind -= c.shepard;
 #endif
 #if SHEPARD_GEOMETRIC
   a->shepard += c.shepard;
@@ -190,22 +204,6 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #endif
 #endif
 }
-
-#if THIN_WALLS
-// Beyond a plate's edge there is water, not seen but there: its pressure goes on from the particle's.
-INLINE void add_brim(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-#if WALL_FORCES
-  if (a->looking) return;
-#endif
-  const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
-  // the mean, not the fitted plane: that plane rests on the few particles in sight, and made the noise there three times as great
-  const real push = (a->pressure + a->fit.pressure / a->fit.weight) * b.weight +
-                    a->density * dot3(a->gravity, b.moment);
-  a->force_x += push * b.normal.x;
-  a->force_y += push * b.normal.y;
-  a->force_z += push * b.normal.z;
-}
-#endif
 
 #if GHOSTS
 // Short-range repulsion by the foot of the particle on each plane ([B] of docs/numerics.md, §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
@@ -292,6 +290,9 @@ INLINE void start_wall_sums(wall_sweep_t* b, __constant const parameters_t* p, i
 // What the sweep over the particles has found for each of the tile's own.
 typedef struct {
   places_t force;
+#if WALL_FORCES && THIN_WALLS
+  places_t across;
+#endif
 #if WALL_FORCES || VISCOSITY_MORRIS
   places_t viscous;
 #endif
@@ -308,6 +309,11 @@ INLINE void finish_particles(const sweep_t* a, pair_sums_t* s) {
   own_sums(a->force_x, s->force.x);
   own_sums(a->force_y, s->force.y);
   own_sums(a->force_z, s->force.z);
+#if WALL_FORCES && THIN_WALLS
+  own_sums(a->across_x, s->across.x);
+  own_sums(a->across_y, s->across.y);
+  own_sums(a->across_z, s->across.z);
+#endif
 #if WALL_FORCES || VISCOSITY_MORRIS
   own_sums(a->viscous_x, s->viscous.x);
   own_sums(a->viscous_y, s->viscous.y);
@@ -342,6 +348,17 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
 }
 
 #if WALL_FORCES
+// The owner's part of what is missing behind walls. Quadrature may make a part slightly negative.
+INLINE real share_of_owner(const wall_sweep_t* b) {
+#if SHEPARD_MONOLITHIC
+  return b->touched / b->weight;  // its parts are no volumes close to a wall
+#else
+  if (b->touched == b->weight) return R(1.0);
+  const real own = fmax(b->behind, R(0.0)), others = fmax(b->beyond - b->behind, R(0.0));
+  return own + others > R(0.0) ? own / (own + others) : b->touched / b->weight;
+#endif
+}
+
 INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vector(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z); }
 
 // Of ∫ W dS in 1/h, which is 3/4 on a flat wall: less is what rounding leaves of facets that end beyond the support.
@@ -380,13 +397,15 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
   f.drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
   f.place = make_vector(b.x, b.y, b.z);
 #else
-  const vector_t pair_push = make_vector(b.force_x, b.force_y, b.force_z);
-  const vector_t pair_drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
   sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
-  const real renormalise = R(1.0) / bounded_shepard(b.shepard);
-  const real unequal = (renormalise - R(1.0)) * b.touched / b.weight;  // each owner's part of the unequal exchange
-  f.push = mixed(renormalise, b.push, unequal, pair_push);
-  f.drag = mixed(-renormalise, b.drag, unequal, pair_drag);
+  const real share = share_of_owner(&b);
+  const real missing = (R(1.0) / bounded_shepard(b.shepard) - R(1.0)) * share;
+  f.push = mixed(R(1.0), b.push, missing, make_vector(b.force_x, b.force_y, b.force_z));
+#if THIN_WALLS
+  const real through = share * p->slope_scale;
+  f.push = mixed(R(1.0), f.push, through, make_vector(sums->across.x[k], sums->across.y[k], sums->across.z[k]));
+#endif
+  f.drag = mixed(R(-1.0), b.drag, missing, make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z));
   const real inverse = R(1.0) / b.touched;
   f.place = make_vector(b.touched_at.x * inverse, b.touched_at.y * inverse, b.touched_at.z * inverse);
 #endif
@@ -402,7 +421,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
                           __global real* wrenches) {
   const int item = get_global_id(0);
   if (item >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   int k = 0;
   while (k + 1 < regions && item >= region_values[(k + 1) * REGION_COUNT + REGION_ITEM]) ++k;
   __global const int* region = region_values + k * REGION_COUNT;
@@ -420,6 +439,10 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     bool touching[TILE_OWN];
     bool any = false;
     for (int own = 0; own < TILE_OWN; ++own) {
+#if THIN_WALLS
+      walls.share = R(0.0);
+      if (first + own < end) find_screen(p, &walls, state[FIELD_X * stride + first + own], state[FIELD_Y * stride + first + own], state[FIELD_Z * stride + first + own]);
+#endif
       touching[own] = first + own < end && touches(p, first + own, state, stride, &walls, images, owner);
       any = any || touching[own];
     }
@@ -435,6 +458,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     finish_particles(&a, &sums);
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
+      LOOK_THROUGH(walls, a.near, a.near.places.x[own], a.near.places.y[own], a.near.places.z[own]);
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
       push = mixed(R(1.0), push, R(1.0), f.push);
@@ -455,7 +479,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
                        WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   start_sums(&a, p, first, count, state, stride, reach, &walls);
 #if NEEDS_FIT
@@ -482,6 +506,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     b.clearance = R(0.0);  // the guard looks for itself
     add_repulsion(&b, p, images);
 #else
+    LOOK_THROUGH(walls, a.near, b.x, b.y, b.z);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
 #endif
     const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);

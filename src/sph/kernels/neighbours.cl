@@ -22,23 +22,29 @@ typedef struct {
   __global const int* barrier_list;
   __global const real* barriers;
   // and their free edges
-  __global const int* brim_start;
-  __global const int* brim_list;
-  __global const real* brims;
+  __global const int* edge_start;
+  __global const int* edge_list;
+  __global const real* edges;
+#if THIN_WALLS
+  // of the particle whose turn it is:
+  real share;    // with which it sees walls that thin ones hide from it
+  bool screened; // it stands before a thin wall, of the plane n·y + o = 0
+  real screen[4];
+#endif
 } walls_t;
 
 // The arguments of a kernel that sweeps walls, or particles that walls may hide.
 #define WALL_ARGUMENTS                                                                                                             \
   __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
       __global const real *wall_motions, __global const int *barrier_start, __global const int *barrier_list, __global const real *barriers, \
-      __global const int *brim_start, __global const int *brim_list, __global const real *brims
+      __global const int *edge_start, __global const int *edge_list, __global const real *edges
 // Elements are gone through one after the other, so that each field is an array; facets by a list, so that each facet's fields lie together.
 #if FACETS
 #define WALL_FIELD(walls, field, s) ((walls)->fields[(s) * (walls)->stride + (field)])
 #else
 #define WALL_FIELD(walls, field, s) ((walls)->fields[(field) * (walls)->stride + (s)])
 #endif
-#define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, brim_start, brim_list, brims}
+#define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, edge_start, edge_list, edges}
 
 // Where the particles of a tile lie, or the one point, whose neighbours are wanted.
 typedef struct {
@@ -52,6 +58,11 @@ typedef struct {
   int own;     // how many of the tile's particles count: the last tile may not be full
   places_t places;
   const walls_t* walls;
+#if THIN_WALLS
+  real transparency;  // with which neighbours count that a thin wall hides
+  bool hiding;        // the neighbour that is added now is one of them
+  real hidden;        // their Σ W V
+#endif
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
   __global const real* image;
@@ -80,6 +91,11 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
   n->reach = reach;
   n->own = TILE_OWN;
   n->walls = walls;
+#if THIN_WALLS
+  n->transparency = R(0.0);
+  n->hiding = false;
+  n->hidden = R(0.0);
+#endif
 #if GHOSTS
   n->mirrored = false;
   n->image = 0;
@@ -107,6 +123,15 @@ INLINE void neighbours_at(neighbours_t* n, __global const real* state, int strid
 
 // A field of the candidates from j on.
 INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_values(n->state + field * n->stride, j); }
+
+// Their volumes, as far as they count.
+INLINE tile near_volume(const neighbours_t* n, int j) {
+#if THIN_WALLS
+  return n->hiding ? n->transparency * near_field(n, FIELD_VOLUME, j) : near_field(n, FIELD_VOLUME, j);
+#else
+  return near_field(n, FIELD_VOLUME, j);
+#endif
+}
 
 INLINE tile_vector_t neighbour_velocity(const neighbours_t* n, int j) {
   const tile u = near_field(n, FIELD_U, j), w = near_field(n, FIELD_W, j);
@@ -175,25 +200,99 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
 #if THIN_WALLS
 #define BARRIER_COUNT 16  // plane n, o, and three edges' planes m, o, all with normal · x + o; inside an edge that is not negative
 
-// Whether a thin wall of the cell of (x, y, z) crosses the way from there along (rx, ry, rz).
+// Whether the barrier stands at the point (x, y, z) of its plane.
+INLINE bool within_barrier(__global const real* b, real x, real y, real z) {
+  bool within = true;
+  for (int e = 1; e < 4; ++e) within = within && b[4 * e] * x + b[4 * e + 1] * y + b[4 * e + 2] * z + b[4 * e + 3] >= R(0.0);
+  return within;
+}
+
+// Where the way from (x, y, z) along (rx, ry, rz) crosses a barrier, as a part of it; 2 if it does not. `side`: 1 from its water to its back, −1 back.
+INLINE real crossing(__global const real* b, real x, real y, real z, real rx, real ry, real rz, real side) {
+  const real before = side * (b[0] * x + b[1] * y + b[2] * z + b[3]);
+  const real after = before + side * (b[0] * rx + b[1] * ry + b[2] * rz);
+  if (before >= R(0.0) || after <= R(0.0)) return R(2.0);
+  const real part = before / (before - after);
+  return within_barrier(b, x + part * rx, y + part * ry, z + part * rz) ? part : R(2.0);
+}
+
+// Whether the way from (x, y, z) along (rx, ry, rz) goes through a thin wall of the cell: in by one side and out by the other. What only cuts a corner of a
+// solid is not hidden by it; nor does any solid hide its corners.
 INLINE bool hidden_in_cell(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
   const int cell = cell_index(p, x, y, z);
-  for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k) {
-    __global const real* b = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
-    const real before = b[0] * x + b[1] * y + b[2] * z + b[3];
-    const real after = before + b[0] * rx + b[1] * ry + b[2] * rz;
-    if (before * after >= R(0.0)) continue;
-    const real part = before / (before - after);
-    const real cx = x + part * rx, cy = y + part * ry, cz = z + part * rz;
-    bool within = true;
-    for (int e = 1; e < 4; ++e) within = within && b[4 * e] * cx + b[4 * e + 1] * cy + b[4 * e + 2] * cz + b[4 * e + 3] >= R(0.0);
-    if (within) return true;
+  const int first = walls->barrier_start[cell], end = walls->barrier_start[cell + 1];
+  for (int k = first; k < end; ++k) {
+    __global const real* in = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
+    if (crossing(in, x, y, z, rx, ry, rz, R(1.0)) > R(1.0)) continue;
+    for (int l = first; l < end; ++l) {
+      __global const real* out = walls->barriers + BARRIER_COUNT * walls->barrier_list[l];
+      if (in[0] * out[0] + in[1] * out[1] + in[2] * out[2] < R(-0.5) && crossing(out, x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0)) return true;
+    }
   }
   return false;
+}
+
+// Sets the plane of the nearest thin wall that (x, y, z) stands before and over.
+INLINE void find_screen(__constant const parameters_t* p, walls_t* walls, real x, real y, real z) {
+  const int cell = cell_index(p, x, y, z);
+  real nearest = p->support;
+  walls->screened = false;
+  for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k) {
+    __global const real* b = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
+    const real distance = -(b[0] * x + b[1] * y + b[2] * z + b[3]);
+    if (distance <= R(0.0) || distance >= nearest) continue;
+    if (!within_barrier(b, x + distance * b[0], y + distance * b[1], z + distance * b[2])) continue;
+    nearest = distance;
+    walls->screened = true;
+    for (int i = 0; i < 4; ++i) walls->screen[i] = b[i];
+  }
+}
+
+// Of the thin walls of the cell that the way from (x, y, z) along (rx, ry, rz) crosses from their water to their back: whether the first one faces the
+// other way than a wall with this normal.
+INLINE bool behind_opposite(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz, vector_t normal) {
+  const int cell = cell_index(p, x, y, z);
+  real first = R(2.0);
+  bool opposite = false;
+  for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k) {
+    __global const real* b = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
+    const real part = crossing(b, x, y, z, rx, ry, rz, R(1.0));
+    if (part >= first) continue;
+    first = part;
+    opposite = b[0] * normal.x + b[1] * normal.y + b[2] * normal.z < R(-0.5);
+  }
+  return opposite;
 }
 
 INLINE bool has_barriers(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
   const int cell = cell_index(p, x, y, z);
   return walls->barrier_start[cell + 1] > walls->barrier_start[cell];
+}
+
+// Thin walls are transparent about their free edges. There the water on both sides is one and the sums over all of it and over all of the wall are those
+// of any solid; hiding what lies behind the wall from a particle would leave its sums open, or closed by a guess, and pressures would jump whenever a
+// neighbour comes round the edge. Farther from the edge than the support a particle sees no more of what is behind than behind any wall, and what is there
+// and the wall's own far side cancel: between EDGE_NEAR and EDGE_FAR of the support both ways of summing are right, and the one goes over into the other.
+#define FREE_EDGE_COUNT 8
+#define FREE_EDGE_DIRECTION 3
+#define FREE_EDGE_LENGTH 6
+#define FREE_EDGE_OPEN 7  // 1; 0 where another wall stands at it
+#define EDGE_NEAR R(1.0)
+#define EDGE_FAR R(1.5)
+
+INLINE real transparency_at(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
+  const int cell = cell_index(p, x, y, z);
+  real transparency = R(0.0);
+  for (int k = walls->edge_start[cell]; k < walls->edge_start[cell + 1]; ++k) {
+    __global const real* e = walls->edges + FREE_EDGE_COUNT * walls->edge_list[k];
+    const vector_t to = make_vector(x - e[0], DIMENSIONS == 3 ? y - e[1] : R(0.0), z - e[2]);
+    const vector_t way = make_vector(e[FREE_EDGE_DIRECTION], e[FREE_EDGE_DIRECTION + 1], e[FREE_EDGE_DIRECTION + 2]);
+    const real along = fmin(fmax(dot3(to, way), R(0.0)), e[FREE_EDGE_LENGTH]);
+    const vector_t off = make_vector(to.x - along * way.x, to.y - along * way.y, to.z - along * way.z);
+    const real distance = sqrt(dot3(off, off)) * p->inverse_support;
+    const real near = fmin(fmax((EDGE_FAR - distance) / (EDGE_FAR - EDGE_NEAR), R(0.0)), R(1.0));
+    transparency = fmax(transparency, near * near * (R(3.0) - R(2.0) * near) * e[FREE_EDGE_OPEN]);
+  }
+  return transparency;
 }
 #endif

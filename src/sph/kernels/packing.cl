@@ -4,7 +4,6 @@
 #define STEP R(0.3)  // of h²: half of where the iteration still converges; with smaller steps it goes the same way, only slower
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
-#define SWEEP_BRIMS
 
 typedef struct {
   neighbours_t near;
@@ -18,7 +17,7 @@ typedef struct {
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_volume(&a->near, j);
   a->error_x += slope_volume * rx;
   a->error_z += slope_volume * rz;
 #if DIMENSIONS == 3
@@ -35,15 +34,6 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
 }
 
-#if THIN_WALLS
-INLINE void add_brim(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
-  const brim_view_t b = view_brim(p, a->walls, s, x, y, z);
-  a->error_x += b.weight * b.normal.x;
-  a->error_y += b.weight * b.normal.y;
-  a->error_z += b.weight * b.normal.z;
-}
-#endif
-
 #include "sweep.cl"
 
 // The displacement of one iteration, written as rates over a unit of time; RATE_COMPRESSION holds h |E|, for the report.
@@ -51,7 +41,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
                       WALL_ARGUMENTS, __global const real* images, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   sweep_particles(&a, p, slot_start, images);
@@ -62,6 +52,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   const real h = p->smoothing_length;
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
+    LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);  // with ghosts: the lid and what the guard needs
     const real size = sqrt(b.error_x * b.error_x + b.error_y * b.error_y + b.error_z * b.error_z);
     // no further than a tenth of the spacing at once: on a coarse curved wall E is large at first

@@ -26,7 +26,7 @@ typedef struct {
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile weight = kernel_values(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile weight = kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
   const tile density = p->density * (R(1.0) + near_field(&a->near, FIELD_COMPRESSION, j));
   const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
   a->weight += weight;
@@ -71,12 +71,13 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
                      WALL_ARGUMENTS, __global const real* images, __global const real* points, __global real* results) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   const real x = points[i], y = points[count + i], z = points[2 * count + i];
   sweep_t a = {0};
   neighbours_at(&a.near, state, stride, reach, &walls, x, y, z);
   a.gravity = gravity_at(p, &walls, x, y, z, make_vector(R(0.0), R(0.0), R(0.0)));
   sweep_particles(&a, p, slot_start, images);
+  LOOK_THROUGH(walls, a.near, x, y, z);
   const real shepard = find_shepard(p, &walls, images, x, y, z);
   real weight, pressure;
   own_sums(a.weight, &weight);
@@ -94,7 +95,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
                       WALL_ARGUMENTS, __global const real* images, __global real* results) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   sweep_particles(&a, p, slot_start, images);
@@ -103,6 +104,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, R(1.0), false, R(0.0), R(0.0), R(0.0)};
 #if !GHOSTS
+    LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
     // a flat surface's first row has 0.75 of a full kernel, its second more than 0.95

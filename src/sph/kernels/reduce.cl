@@ -214,3 +214,39 @@ __kernel void wrench_totals(int regions, int items, __global const int* region_v
     totals[k * WRENCH_COUNT + part] = sum;
   }
 }
+
+// What chunks of the pieces of wall that face another owner's (facing_walls.cl) add to the listed owners' pressure forces and torques.
+__kernel void facing_chunks(int items, int chunks, int count, __global const int* region_values, __global const real* motions, __global const int* owners,
+                            __global const real* places, __global const int* others, __global const real* forces, __global real* sums) {
+  const int item = get_global_id(0);
+  if (item >= items) return;
+  const int owner = region_values[item / chunks * REGION_COUNT + REGION_OWNER];
+  const int chunk = item % chunks;
+  __global const real* centre = OWNER_MOTION(motions, owner);
+  real sum[6] = {R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+  for (int s = chunk * REDUCE_CHUNK; s < min(count, (chunk + 1) * REDUCE_CHUNK); ++s)
+    for (int slot = 0; slot < FACING_OWNERS; ++slot) {
+      const int other = others[slot * count + s];
+      if (other == NO_OWNER || (owners[s] != owner && other != owner)) continue;
+      const real sign = owners[s] == owner ? R(1.0) : R(-1.0);
+      const real fx = sign * forces[3 * slot * count + s], fy = sign * forces[(3 * slot + 1) * count + s], fz = sign * forces[(3 * slot + 2) * count + s];
+      const real rx = places[s] - centre[0], ry = places[count + s] - centre[1], rz = places[2 * count + s] - centre[2];
+      sum[0] += fx;
+      sum[1] += fy;
+      sum[2] += fz;
+      sum[3] += ry * fz - rz * fy;
+      sum[4] += rz * fx - rx * fz;
+      sum[5] += rx * fy - ry * fx;
+    }
+  for (int k = 0; k < 6; ++k) sums[6 * item + k] = sum[k];
+}
+
+__kernel void facing_totals(int regions, int chunks, __global const real* sums, __global real* totals) {
+  const int k = get_global_id(0);
+  if (k >= regions) return;
+  for (int part = 0; part < 6; ++part) {
+    real sum = R(0.0), rest = R(0.0);
+    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(sums[6 * (k * chunks + chunk) + part], &sum, &rest);
+    totals[k * WRENCH_COUNT + (part < 3 ? part : part + 3)] += sum;
+  }
+}

@@ -6,7 +6,6 @@
 //   SWEEP_WALLS       if it goes over walls, which is done for one particle at a time:
 //     wall_sweep_t                                 its inputs, own values and sums,
 //     add_wall(wall_sweep_t*, p, s, x, y, z)       one wall element or facet that may be within the support of (x, y, z),
-//     SWEEP_BRIMS, add_brim(wall_sweep_t*, p, s, x, y, z)  in cases with thin plates, if the free edges of these matter to it,
 // and whose kernel starts the sums, calls the loop, and finishes them.
 // Particles lie in memory along rows, slot after slot. Of each row near a tile only the slots within reach of it are gone through: one contiguous run.
 // Elements are sorted by cells of the support's size, x fastest: three cells in a row are one contiguous run. Facets are larger than cells: each cell has a
@@ -107,7 +106,7 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
 
 #if TILE_LANES == 1
 INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run, real x, real y, real z) {
-  const neighbours_t* near = &sums->near;
+  neighbours_t* near = &sums->near;
   __global const real* xs = near->state + FIELD_X * near->stride;
 #if DIMENSIONS == 3
   __global const real* ys = near->state + FIELD_Y * near->stride;
@@ -121,12 +120,14 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
       const real ry = DIMENSIONS == 3 ? near->state[FIELD_Y * near->stride + j] - y : R(0.0);
       const real rz = zs[j] - z;
       const real r2 = rx * rx + ry * ry + rz * rz;
+      if (r2 >= p->support_squared) continue;
       // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
-      if (r2 >= p->support_squared || hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz) ||
-          hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
-        continue;
+      near->hiding = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz) || hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
+      if (near->hiding) near->hidden += kernel_value(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
+      if (near->hiding && near->transparency == R(0.0)) continue;
       add_particle(sums, p, j, rx, ry, rz, r2);
     }
+    near->hiding = false;
     return;
   }
 #endif
@@ -270,6 +271,9 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
 
 INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   places_t at = sums->near.places;
+#if THIN_WALLS
+  sums->near.transparency = transparency_at(p, sums->near.walls, at.x[0], at.y[0], at.z[0]);
+#endif
 #if IMAGES
   for (int k = -1; k < p->images; ++k) {  // first the tank itself: one call, or the whole loop would be compiled twice
     if (k >= 0) {
@@ -286,6 +290,40 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
   sweep_ghosts(sums, p, slot_start, images);
 #endif
 }
+#endif
+
+#if THIN_WALLS
+// Prepares the walls for what the point sees of them: how much of those that thin ones hide from it counts. About free edges as much as of its neighbours
+// beyond; but on a dry far side there is nothing for the far walls to cancel with.
+INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real transparency, real hidden, real x, real y, real z) {
+  walls->share = R(0.0);
+  find_screen(p, walls, x, y, z);
+  if (transparency == R(0.0)) return;
+  real room = R(0.0);  // of the kernel, behind thin walls
+  const int centre = cell_index(p, x, y, z);
+#if FACETS
+  for (int k = walls->start[centre]; k < walls->start[centre + 1]; ++k) {
+    const int s = walls->list[k];
+    const contact_t all = touch_wall(p, walls, s, x, y, z);
+    room += all.shepard - visible_part(p, walls, s, x, y, z, all).shepard;
+  }
+#else
+  const int layer = DIMENSIONS == 3 ? p->cells_x * p->cells_y : p->cells_x;
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = DIMENSIONS == 3 ? -1 : 0; dy <= (DIMENSIONS == 3 ? 1 : 0); ++dy) {
+      const int row = centre + dz * layer + dy * p->cells_x;
+      for (int s = walls->start[row - 1]; s < walls->start[row + 2]; ++s) {
+        const contact_t all = touch_wall(p, walls, s, x, y, z);
+        if (all.weight > R(0.0)) room += all.shepard - visible_part(p, walls, s, x, y, z, all).shepard;
+      }
+    }
+#endif
+  // what is hidden is less than the room that the far walls open, some of which is in sight past the edge
+  walls->share = transparency * fmin(R(6.0) * hidden / fmax(room, R(1.0e-4)), R(1.0));
+}
+#define LOOK_THROUGH(walls, near, x, y, z) look_through(p, &(walls), (near).transparency, (near).hidden, x, y, z)
+#else
+#define LOOK_THROUGH(walls, near, x, y, z)
 #endif
 
 #ifdef SWEEP_WALLS
@@ -313,9 +351,6 @@ INLINE void sweep_wall_cells(wall_sweep_t* sums, __constant const parameters_t* 
       }
     }
   }
-#endif
-#if THIN_WALLS && defined(SWEEP_BRIMS)
-  for (int k = walls->brim_start[centre]; k < walls->brim_start[centre + 1]; ++k) add_brim(sums, p, walls->brim_list[k], x, y, z);
 #endif
 }
 

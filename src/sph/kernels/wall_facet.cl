@@ -150,6 +150,24 @@ INLINE part_t part_of_segment(real d, real from, real to) {
   part.potential *= R(0.0348151438013) * half_length;
   return part;
 }
+
+typedef struct {
+  real shepard, weight, moment;  // the moment along the segment
+} segment_t;
+
+// The integrals over what lies within the support of a segment from `from` to `to` along its line, as seen from the foot.
+INLINE segment_t segment_terms(real d, real from, real to) {
+  segment_t s = {R(0.0), R(0.0), R(0.0)};
+  const real chord = sqrt(R(4.0) - d * d);
+  const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
+  if (b <= a) return s;
+  const real middle = fmin(fmax(R(0.0), a), b);  // W and Φ have odd powers of the distance: no Gauss points across the foot
+  const part_t left = part_of_segment(d, a, middle), right = part_of_segment(d, middle, b);
+  s.weight = left.weight + right.weight;
+  s.shepard = d * (left.potential + right.potential) - R(0.159154943092) * (arctangent(b, d) - arctangent(a, d));
+  s.moment = height_integral(sqrt(d * d + a * a)) - height_integral(sqrt(d * d + b * b));
+  return s;
+}
 #endif
 
 // Of (x, y, z) from the plane of the facet with these fields; positive on the fluid's side.
@@ -224,17 +242,12 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   const real farthest = fmax(from, -to);
   c.beside = farthest * p->smoothing_length;
   c.over = farthest <= R(0.0);
-  const real chord = sqrt(R(4.0) - d * d);
-  const real a = fmin(fmax(from, -chord), chord), b = fmin(fmax(to, -chord), chord);
-  if (b <= a) return c;
   const bool in_front = height >= R(0.0) || (c.over && c.distance > -BEHIND_TOLERANCE * p->spacing);
-  const real middle = fmin(fmax(R(0.0), a), b);  // W and Φ have odd powers of the distance: no Gauss points across the foot
-  const part_t left = part_of_segment(d, a, middle), right = part_of_segment(d, middle, b);
-  c.weight = left.weight + right.weight;
-  shepard = d * (left.potential + right.potential) - R(0.159154943092) * (arctangent(b, d) - arctangent(a, d));
-  const real moment = height_integral(sqrt(d * d + a * a)) - height_integral(sqrt(d * d + b * b));
-  along_x = moment * wx;
-  along_z = moment * wz;
+  const segment_t part = segment_terms(d, from, to);
+  shepard = part.shepard;
+  c.weight = part.weight;
+  along_x = part.moment * wx;
+  along_z = part.moment * wz;
 #endif
   c.shepard = in_front ? shepard : -shepard;
   const real depth = height * c.weight;
@@ -242,3 +255,83 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   c.weight *= p->inverse_smoothing;
   return c;
 }
+
+#if THIN_WALLS
+// Of a facet that the point stands before, the part on the point's side of its screen: what lies beyond the thin wall, and under its thickness, is not seen.
+// A facet may be far larger than the support, and pass below a plate that stands on it. `c`: the whole facet's.
+INLINE contact_t part_before(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, contact_t c) {
+  const real tolerance = R(1.0e-3) * p->spacing * p->inverse_smoothing;
+  const real height = c.distance * p->inverse_smoothing;
+  const real d = fmax(fabs(height), LEAST_HEIGHT);
+  if (d >= R(2.0)) return c;
+  __global const real* fields = walls->fields + s * walls->stride;
+  const vector_t n = make_vector(walls->screen[0], walls->screen[1], walls->screen[2]);
+  const real own = (n.x * x + n.y * y + n.z * z + walls->screen[3]) * p->inverse_smoothing;  // below zero on the point's side
+#if DIMENSIONS == 3
+  vector_t corner[3];
+  real side[3];
+  for (int k = 0; k < 3; ++k) {
+    const int field = WALL_EDGES + EDGE_COUNT * k;
+    const real start = fields[field + 7] > R(0.0) ? R(0.0) : fields[field + 6];
+    corner[k] = make_vector((fields[field] + start * fields[field + 3] - x) * p->inverse_smoothing,
+                            (fields[field + 1] + start * fields[field + 4] - y) * p->inverse_smoothing,
+                            (fields[field + 2] + start * fields[field + 5] - z) * p->inverse_smoothing);
+    side[k] = own + dot3(n, corner[k]);
+  }
+  const real least = fmin(fmin(side[0], side[1]), side[2]), most = fmax(fmax(side[0], side[1]), side[2]);
+  if (most <= tolerance) return c;
+  real shepard = R(0.0), along_x = R(0.0), along_y = R(0.0), along_z = R(0.0);
+  c.weight = R(0.0);
+  if (least < -tolerance) {
+    vector_t polygon[4];
+    int corners = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      if (side[k] <= R(0.0)) polygon[corners++] = corner[k];
+      if ((side[k] <= R(0.0)) == (side[next] <= R(0.0))) continue;
+      const real part = side[k] / (side[k] - side[next]);
+      polygon[corners++] = make_vector(corner[k].x + part * (corner[next].x - corner[k].x), corner[k].y + part * (corner[next].y - corner[k].y),
+                                       corner[k].z + part * (corner[next].z - corner[k].z));
+    }
+    for (int k = 0; k < corners; ++k) {
+      const vector_t a = polygon[k], b = polygon[(k + 1) % corners];
+      const vector_t edge = make_vector(b.x - a.x, b.y - a.y, b.z - a.z);
+      const real length = sqrt(dot3(edge, edge));
+      if (length < R(1.0e-5)) continue;
+      const vector_t way = make_vector(edge.x / length, edge.y / length, edge.z / length);
+      const vector_t out = cross3(way, c.normal);
+      const real from = dot3(way, a);
+      const edge_t e = edge_terms(d, dot3(out, a), from, from + length, false);
+      shepard += e.shepard;
+      c.weight += e.weight;
+      along_x -= e.moment * out.x;
+      along_y -= e.moment * out.y;
+      along_z -= e.moment * out.z;
+    }
+  }
+#else
+  const real bx = (fields[WALL_EDGES] - x) * p->inverse_smoothing, bz = (fields[WALL_EDGES + 2] - z) * p->inverse_smoothing;
+  const real wx = fields[WALL_EDGES + 3], wz = fields[WALL_EDGES + 5];
+  real from = wx * bx + wz * bz;
+  real to = from + fields[WALL_EDGES + 6] * p->inverse_smoothing;
+  const real first = own + n.x * bx + n.z * bz, slope = n.x * wx + n.z * wz;
+  const real last = first + slope * (to - from);
+  if (fmax(first, last) <= tolerance) return c;
+  segment_t part = {R(0.0), R(0.0), R(0.0)};
+  if (fmin(first, last) < -tolerance) {
+    const real cut = from - first / slope;
+    if (first > R(0.0)) from = cut;
+    if (last > R(0.0)) to = cut;
+    part = segment_terms(d, from, to);
+  }
+  c.weight = part.weight;
+  const real shepard = part.shepard;
+  const real along_x = part.moment * wx, along_y = R(0.0), along_z = part.moment * wz;
+#endif
+  c.shepard = shepard;
+  const real depth = height * c.weight;
+  c.moment = make_vector(along_x + depth * c.normal.x, along_y + depth * c.normal.y, along_z + depth * c.normal.z);
+  c.weight *= p->inverse_smoothing;
+  return c;
+}
+#endif

@@ -10,7 +10,7 @@ typedef struct {
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile weight = kernel_values(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  const tile weight = kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
   const tile density = p->density * (R(1.0) + near_field(&a->near, FIELD_COMPRESSION, j));
   // r = x_j − x_s
   const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
@@ -26,7 +26,7 @@ __kernel void wall_loads(__constant const parameters_t* p, int count, __global c
                          WALL_ARGUMENTS, __global const real* images, __global real* loads) {
   const int s = get_global_id(0);
   if (s >= count) return;
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
   const real x = wall_fields[WALL_X * wall_stride + s], y = wall_fields[WALL_Y * wall_stride + s], z = wall_fields[WALL_Z * wall_stride + s];
   sweep_t a = {0};
 #if THIN_WALLS

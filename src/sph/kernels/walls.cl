@@ -171,29 +171,59 @@ INLINE real side_of(__constant const parameters_t* p, real distance, bool over) 
 #endif
 
 #if THIN_WALLS
-#include "brim.cl"
-#endif
+#define RIM R(1.5)  // WALL_THIN of a rim is more
 
-// A wall as the point sees it: a thin one from its own side only, and none through a thin one.
-INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
-  contact_t c = touch_wall(p, walls, s, x, y, z);
-#if THIN_WALLS
-  bool unseen = c.distance < R(0.0) && WALL_FIELD(walls, WALL_THIN, s) > R(0.5);
-  if (!unseen && c.weight > R(0.0)) {
-    // to the middle of what is within the support, or nearly: the wall itself may be thin
-    const real inverse = R(0.99) / c.weight;
-    unseen = hidden_in_cell(p, walls, x, y, z, c.moment.x * inverse, c.moment.y * inverse, c.moment.z * inverse);
-  }
-  if (unseen) {
-    c.weight = R(0.0);
-    c.shepard = R(0.0);
-    c.moment = make_vector(R(0.0), R(0.0), R(0.0));
-    c.beside = p->support;
-    c.over = false;
-  }
-#endif
+INLINE contact_t unseen(__constant const parameters_t* p, contact_t c) {
+  c.weight = R(0.0);
+  c.shepard = R(0.0);
+  c.moment = make_vector(R(0.0), R(0.0), R(0.0));
+  c.beside = p->support;
+  c.over = false;
   return c;
 }
+
+// What thin walls leave of a wall for the point; `c`: all of it.
+INLINE contact_t visible_part(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, contact_t c) {
+  const bool behind = c.distance < R(0.0);
+  // beyond a thin wall's two sides: the rim between them is nothing of its own
+  if (behind && WALL_FIELD(walls, WALL_THIN, s) > RIM) return unseen(p, c);
+#if FACETS
+  if (!behind && walls->screened) c = part_before(p, walls, s, x, y, z, c);
+#endif
+  if (c.weight <= R(0.0)) return behind && WALL_FIELD(walls, WALL_THIN, s) > R(0.5) ? unseen(p, c) : c;
+  const real inverse = R(1.0) / c.weight;
+  const vector_t middle = make_vector(c.moment.x * inverse, c.moment.y * inverse, c.moment.z * inverse);
+  // From behind, a wall is the far side of the solid that the point stands beside, and counts with it, unless that is so thin that there is water beyond:
+  // then the wall is that water's. A sheet's two sides lie upon each other.
+  if (behind)
+    return behind_opposite(p, walls, x, y, z, R(1.01) * middle.x, R(1.01) * middle.y, R(1.01) * middle.z, c.normal) ? unseen(p, c) : c;
+  // not quite to the wall, which may be thin itself
+  return hidden_in_cell(p, walls, x, y, z, R(0.99) * middle.x, R(0.99) * middle.y, R(0.99) * middle.z) ? unseen(p, c) : c;
+}
+
+// A wall as the point sees it.
+INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  const contact_t all = touch_wall(p, walls, s, x, y, z);
+  if (!has_barriers(p, walls, x, y, z)) return all;
+  contact_t c = visible_part(p, walls, s, x, y, z, all);
+  c.weight += walls->share * (all.weight - c.weight);
+  c.shepard += walls->share * (all.shepard - c.shepard);
+  c.moment.x += walls->share * (all.moment.x - c.moment.x);
+  c.moment.y += walls->share * (all.moment.y - c.moment.y);
+  c.moment.z += walls->share * (all.moment.z - c.moment.z);
+  return c;
+}
+#else
+INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  return touch_wall(p, walls, s, x, y, z);
+}
+#endif
+
+// Two walls face each other if the cosine of their normals is less. In gaps between them narrower than this, in spacings, there is no room for particles, and
+// from the second on there is: between, the water film (src/simulation/water_film.h) goes over into particles.
+#define FACING R(-0.7)
+#define FILM_CLOSED R(0.5)
+#define FILM_OPEN R(1.0)
 
 // How near the point is to the wall, at the least: what the guard asks. Beside a wall it counts too, for a point that comes round an edge.
 INLINE real wall_clearance(__constant const parameters_t* p, const contact_t* c) {

@@ -1,0 +1,51 @@
+#include "facing_walls.h"
+
+#include <algorithm>
+
+namespace wavetank {
+
+template <class Real>
+FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<WallElement>& pieces, const Discretisation& discretisation)
+    : device_(device), discretisation_(discretisation) {
+  const auto of_first_owner = [&pieces](const WallElement& piece) { return piece.owner == pieces.front().owner; };
+  if (std::all_of(pieces.begin(), pieces.end(), of_first_owner)) return;
+  count_ = static_cast<int>(pieces.size());
+  std::vector<Real> rest(6 * pieces.size());
+  std::vector<int> owners(pieces.size());
+  for (std::size_t s = 0; s < pieces.size(); ++s) {
+    owners[s] = pieces[s].owner;
+    for (int axis = 0; axis < 3; ++axis) {
+      rest[axis * pieces.size() + s] = static_cast<Real>(pieces[s].centre[axis] - discretisation.origin[axis]);
+      rest[(3 + axis) * pieces.size() + s] = static_cast<Real>(pieces[s].area * pieces[s].normal[axis]);
+    }
+  }
+  rest_ = compute::Buffer<Real>(device, rest);
+  owners_ = compute::Buffer<int>(device, owners);
+  places_ = compute::Buffer<Real>(device, 3 * pieces.size());
+  forces_ = compute::Buffer<Real>(device, 3 * field::facing_owners * pieces.size());
+  others_ = compute::Buffer<int>(device, field::facing_owners * pieces.size());
+}
+
+template <class Real>
+void FacingWalls<Real>::set_poses(const std::vector<WallPose>& poses) {
+  if (count_ > 0) poses_.set(device_, pose_values<Real>(poses, discretisation_));
+}
+
+template <class Real>
+void FacingWalls<Real>::add(const SolverKernels& kernels, const Surroundings<Real>& surroundings, const compute::Buffer<Real>& state,
+                            const WallArrays<Real>& walls, int regions, const compute::Buffer<int>& region_values,
+                            compute::Buffer<Real>& totals) {
+  if (count_ == 0) return;
+  surroundings.sweep(kernels.facing_walls, count_, state, walls, rest_, owners_, poses_.on_device(), places_, others_, forces_);
+  const int chunks = chunks_of(count_), items = regions * chunks;
+  const std::size_t size = 6 * static_cast<std::size_t>(items);
+  if (sums_.size() < size) sums_ = compute::Buffer<Real>(device_, size);
+  kernels.facing_chunks.launch(items, items, chunks, count_, region_values, surroundings.motions.on_device(), owners_, places_, others_, forces_,
+                               sums_);
+  kernels.facing_totals.launch(regions, regions, chunks, sums_, totals);
+}
+
+template class FacingWalls<float>;
+template class FacingWalls<double>;
+
+}  // namespace wavetank

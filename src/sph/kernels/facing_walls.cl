@@ -1,0 +1,130 @@
+// What walls of different owners do to each other through water narrower than the support.
+//
+// A wall's own sum over the particles takes the water for all there is within the support. Behind the walls of another owner there is none, and that owner
+// stands in for it: the wall has from it what water there would do, and it has the opposite from the wall. With p the pressure at a place s of the wall,
+// n S its surface and b the part of the kernel at s that lies behind the other owner's walls (their part of 1 − γ), water behind them under this pressure
+// would add 2 p b n S. Taken half from either side, so that what the one gets the other loses, it is p b n S from every place of both. In a gap of even
+// width this makes the force on either wall the pressure's integral over it, however narrow the gap is: of the kernel at a wall what particles fill and
+// what lies behind the other wall is one half together. A gap of a few spacings may hold a row more or less than fits, which Σ W V tells: there b is what
+// the owner's own walls and the particles leave of the kernel. (Air counts then too; where air is so near, the pressure is next to nothing.)
+//
+// Places that face another owner's walls nearer than FILM_CLOSED to FILM_OPEN spacings have no particles between: there the water film acts
+// (src/simulation/water_film.h) and this fades out.
+#include "walls.cl"
+#include "linear_fit.cl"
+#define SWEEP_PARTICLES
+#define SWEEP_WALLS
+
+#define NARROW R(2.5)  // spacings: up to here the particles in a gap are counted ...
+#define WIDE R(3.5)    // ... and from here on they fill it as any water
+
+typedef struct {
+  neighbours_t near;
+  vector_t gravity;
+  tile_fit_t fit;
+} sweep_t;
+
+typedef struct {
+  const walls_t* walls;
+  int owner;
+  vector_t normal;
+  real own;                    // of the support, behind the owner's own walls
+  int others[FACING_OWNERS];
+  real behind[FACING_OWNERS];  // of the support, behind each other owner's walls
+  real gap[FACING_OWNERS];     // to those of them that face it
+} wall_sweep_t;
+
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile weight = kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
+  const tile density = p->density * (R(1.0) + near_field(&a->near, FIELD_COMPRESSION, j));
+  const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
+  add_to_fit(&a->fit, weight, near_field(&a->near, FIELD_PRESSURE, j) - density * head, rx, ry, rz);
+}
+
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const int owner = (int)WALL_FIELD(a->walls, WALL_OWNER, s);
+  contact_t c = see_wall(p, a->walls, s, x, y, z);
+  // what a thin wall hides of another one is missing too: that is behind it all the same
+  if (THIN_WALLS && owner != a->owner && c.weight > R(0.0)) c = touch_wall(p, a->walls, s, x, y, z);
+  if (owner == a->owner) {
+    a->own -= c.shepard;
+    return;
+  }
+  if (c.shepard == R(0.0)) return;
+  // an owner beyond the last slot is left out on both sides
+  int slot = 0;
+  while (slot < FACING_OWNERS && a->others[slot] != NO_OWNER && a->others[slot] != owner) ++slot;
+  if (slot == FACING_OWNERS) return;
+  a->others[slot] = owner;
+  a->behind[slot] -= c.shepard;
+  if (c.over && dot3(c.normal, a->normal) < FACING) a->gap[slot] = fmin(a->gap[slot], fabs(c.distance));
+}
+
+#include "sweep.cl"
+
+// As wall_loads.cl has it.
+#define DRY R(0.01)
+
+// One piece of wall a work-item. `rest`: centre and area times normal, at rest; `poses`: of each owner, a rotation, row by row, and a shift. Results: where
+// it is, and of each slot the force that the piece gets from another owner, or NO_OWNER.
+__kernel void facing_walls(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+                           WALL_ARGUMENTS, __global const real* images, __global const real* rest, __global const int* owners,
+                           __global const real* poses, __global real* places, __global int* others, __global real* forces) {
+  const int s = get_global_id(0);
+  if (s >= count) return;
+  const int owner = owners[s];
+  __global const real* pose = poses + 12 * owner;
+  const vector_t moved = turned(pose, rest[s], rest[count + s], rest[2 * count + s]);
+  const real x = moved.x + pose[9], y = moved.y + pose[10], z = moved.z + pose[11];
+  for (int slot = 0; slot < FACING_OWNERS; ++slot) others[slot * count + s] = NO_OWNER;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  wall_sweep_t b = {0};
+  b.walls = &walls;
+  b.owner = owner;
+  for (int slot = 0; slot < FACING_OWNERS; ++slot) {
+    b.others[slot] = NO_OWNER;
+    b.gap[slot] = p->support;
+  }
+  const vector_t surface = turned(pose, rest[3 * count + s], rest[4 * count + s], rest[5 * count + s]);
+  const real inverse = R(1.0) / fmax(sqrt(dot3(surface, surface)), R(1.0e-30));
+  b.normal = make_vector(inverse * surface.x, inverse * surface.y, inverse * surface.z);
+  // off a thin wall, to its own side, or it would see both
+  const real lift = THIN_WALLS ? -R(1.0e-3) * p->spacing : R(0.0);
+  const real px = x + lift * b.normal.x, py = y + lift * b.normal.y, pz = z + lift * b.normal.z;
+#if THIN_WALLS
+  find_screen(p, &walls, px, py, pz);
+#endif
+  sweep_walls(&b, p, &walls, images, px, py, pz);
+  if (b.others[0] == NO_OWNER) return;
+  sweep_t a = {0};
+  neighbours_at(&a.near, state, stride, reach, &walls, px, py, pz);
+  a.gravity = gravity_at(p, &walls, px, py, pz, make_vector(R(0.0), R(0.0), R(0.0)));
+  sweep_particles(&a, p, slot_start, images);
+  linear_fit_t fit;
+  own_fits(&a.fit, &fit);
+  if (fit.weight <= DRY) return;
+  real pressure = fitted_plane(p, &fit, make_vector(R(0.0), R(0.0), R(0.0))).value;
+#if CLAMP_PRESSURE
+  pressure = fmax(pressure, R(0.0));
+#endif
+  real gap = p->support, behind = R(0.0);
+  for (int slot = 0; slot < FACING_OWNERS; ++slot) {
+    gap = fmin(gap, b.gap[slot]);
+    behind += b.behind[slot];
+  }
+  const real narrow = fmin(fmax((WIDE * p->spacing - gap) / ((WIDE - NARROW) * p->spacing), R(0.0)), R(1.0));
+  const real left = fmax(R(1.0) - b.own - fit.weight, R(0.0));
+  const real filled = behind > R(1.0e-3) ? R(1.0) + narrow * (left / behind - R(1.0)) : R(1.0);
+  places[s] = x;
+  places[count + s] = y;
+  places[2 * count + s] = z;
+  for (int slot = 0; slot < FACING_OWNERS; ++slot) {
+    if (b.others[slot] == NO_OWNER) continue;
+    const real open = fmin(fmax((b.gap[slot] - FILM_CLOSED * p->spacing) / ((FILM_OPEN - FILM_CLOSED) * p->spacing), R(0.0)), R(1.0));
+    const real push = open * filled * pressure * b.behind[slot];
+    others[slot * count + s] = b.others[slot];
+    forces[3 * slot * count + s] = push * surface.x;
+    forces[(3 * slot + 1) * count + s] = push * surface.y;
+    forces[(3 * slot + 2) * count + s] = push * surface.z;
+  }
+}

@@ -1,0 +1,84 @@
+// Forces on walls that face each other through water narrower than the support: each wall feels the pressure on it.
+#include <algorithm>
+
+#include "simulation_fixture.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double density = 1000, gravity = 9.81;
+
+/// The force on a body: least, mean and greatest of the second half of the samples.
+struct Force {
+  Vector3d least, mean, greatest;
+};
+
+Force force_on(const Samples& samples, std::size_t owner, double from) {
+  Force force{Vector3d::Constant(1e300), Vector3d::Zero(), Vector3d::Constant(-1e300)};
+  int count = 0;
+  for (const WrenchSample& sample : samples.wrenches) {
+    if (sample.time < from) continue;
+    const Vector3d& now = sample.wrenches[owner].pressure_force;
+    force.least = force.least.cwiseMin(now);
+    force.greatest = force.greatest.cwiseMax(now);
+    force.mean += now;
+    ++count;
+  }
+  force.mean /= count;
+  return force;
+}
+
+struct Variant {
+  const char* name;
+  int dimensions;
+  WallElements elements;
+  ShepardFactor shepard;
+};
+
+/// A fixed box `gap` spacings over the floor, in still water.
+Case box_over_floor(const Variant& variant, double gap) {
+  const bool flat = variant.dimensions == 2;
+  const double spacing = 0.02, width = flat ? 0.0 : 0.4;
+  Case scene = box_case(Vector3d(flat ? 0.8 : 0.4, width, 0.5), 0.3, spacing);
+  scene.fluid.density = density;
+  const double half = flat ? 0.2 : 0.1, low = gap * spacing;
+  const Vector3d middle(flat ? 0.4 : 0.2, 0.5 * width, 0);
+  scene.bodies.push_back({"box", Box{middle + Vector3d(-half, flat ? 0 : -half, low), middle + Vector3d(half, flat ? 0 : half, low + 0.12)}});
+  scene.numerics.walls.elements = variant.elements;
+  scene.numerics.walls.shepard = variant.shepard;
+  scene.numerics.packing.settling = 3;
+  scene.instruments.rate = 100;
+  return scene;
+}
+
+void feels_archimedes_over_the_floor(const Variant& variant, double gap) {
+  const Case scene = box_over_floor(variant, gap);
+  Simulation simulation(scene);
+  const Force force = force_on(run_to(simulation, 0.2), 1, 0.05);
+  const double archimedes = density * gravity * (variant.dimensions == 2 ? 0.4 * 0.12 : 0.2 * 0.2 * 0.12);
+  std::printf("%s, %g spacings over the floor: %+.1f %% of Archimedes' %.1f N (%+.1f to %+.1f %%), sideways %.2f %%\n", variant.name, gap,
+              100 * (force.mean.z() / archimedes - 1), archimedes, 100 * (force.least.z() / archimedes - 1),
+              100 * (force.greatest.z() / archimedes - 1), 100 * std::hypot(force.mean.x(), force.mean.y()) / archimedes);
+  EXPECT_NEAR(force.mean.z(), archimedes, 0.05 * archimedes);
+  EXPECT_LT(std::hypot(force.mean.x(), force.mean.y()), 0.02 * archimedes);
+}
+
+class BoxOverFloor : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(BoxOverFloor, FeelsArchimedesForce) {
+  for (const double gap : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0}) feels_archimedes_over_the_floor(GetParam(), gap);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Walls, BoxOverFloor,
+    ::testing::Values(Variant{"facet", 2, WallElements::facet, ShepardFactor::geometric},
+                      Variant{"numerical", 2, WallElements::numerical, ShepardFactor::geometric},
+                      Variant{"semi_analytical", 2, WallElements::semi_analytical, ShepardFactor::geometric},
+                      Variant{"volumetric", 2, WallElements::facet, ShepardFactor::volumetric},
+                      Variant{"none", 2, WallElements::facet, ShepardFactor::none},
+                      Variant{"facet_3d", 3, WallElements::facet, ShepardFactor::geometric},
+                      Variant{"numerical_3d", 3, WallElements::numerical, ShepardFactor::geometric}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace wavetank
