@@ -242,7 +242,8 @@ TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
         const Vector3d velocity = motion.velocity + motion.angular_velocity.cross(foot - centres[seen->owner]);
         const double weight = whole_weight(d, seen->distance) / fluid.shepard[i];
         const auto along = [&n](const Vector3d& v) { return Vector3d(v - v.dot(n) * n); };
-        compression.add(2 * fluid.compression[i] / step * n, -velocity.dot(n) * weight * n);
+        // twice the paper's, see continuity.cl
+        compression.add(2 * fluid.compression[i] / step * n, -2 * velocity.dot(n) * weight * n);
         const double friction =
             2 * tank.scene.fluid.viscosity * weight / (tank.scene.fluid.density * std::max(seen->distance, 0.5 * d.spacing));
         drag.add(along(fluid.velocity[i]) / step, friction * along(velocity));
