@@ -30,6 +30,7 @@ typedef struct {
   vector_t normal;
   real own;                    // of the support, behind the owner's own walls
   int others[FACING_OWNERS];
+  bool seen[FACING_OWNERS];    // any of them
   real behind[FACING_OWNERS];  // of the support, behind each other owner's walls
   real gap[FACING_OWNERS];     // to those of them that face it
 } wall_sweep_t;
@@ -43,20 +44,25 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const int owner = (int)WALL_FIELD(a->walls, WALL_OWNER, s);
-  contact_t c = see_wall(p, a->walls, s, x, y, z);
-  // what a thin wall hides of another one is missing too: that is behind it all the same
-  if (THIN_WALLS && owner != a->owner && c.weight > R(0.0)) c = touch_wall(p, a->walls, s, x, y, z);
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
   if (owner == a->owner) {
     a->own -= c.shepard;
     return;
   }
-  if (c.shepard == R(0.0)) return;
+#if THIN_WALLS
+  const contact_t all = touch_wall(p, a->walls, s, x, y, z);
+#else
+  const contact_t all = c;
+#endif
+  if (all.shepard == R(0.0)) return;
   // an owner beyond the last slot is left out on both sides
   int slot = 0;
   while (slot < FACING_OWNERS && a->others[slot] != NO_OWNER && a->others[slot] != owner) ++slot;
   if (slot == FACING_OWNERS) return;
   a->others[slot] = owner;
-  a->behind[slot] -= c.shepard;
+  // of an owner that is in sight, what the piece's own plate hides is behind it all the same
+  a->seen[slot] = a->seen[slot] || c.weight > R(0.0);
+  a->behind[slot] -= all.shepard;
   if (c.over && dot3(c.normal, a->normal) < FACING) a->gap[slot] = fmin(a->gap[slot], fabs(c.distance));
 }
 
@@ -110,7 +116,7 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   real gap = p->support, behind = R(0.0);
   for (int slot = 0; slot < FACING_OWNERS; ++slot) {
     gap = fmin(gap, b.gap[slot]);
-    behind += b.behind[slot];
+    behind += b.seen[slot] ? b.behind[slot] : R(0.0);
   }
   const real narrow = fmin(fmax((WIDE * p->spacing - gap) / ((WIDE - NARROW) * p->spacing), R(0.0)), R(1.0));
   const real left = fmax(R(1.0) - b.own - fit.weight, R(0.0));
@@ -119,7 +125,7 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   places[count + s] = y;
   places[2 * count + s] = z;
   for (int slot = 0; slot < FACING_OWNERS; ++slot) {
-    if (b.others[slot] == NO_OWNER) continue;
+    if (b.others[slot] == NO_OWNER || !b.seen[slot]) continue;
     const real open = fmin(fmax((b.gap[slot] - FILM_CLOSED * p->spacing) / ((FILM_OPEN - FILM_CLOSED) * p->spacing), R(0.0)), R(1.0));
     const real push = open * filled * pressure * b.behind[slot];
     others[slot * count + s] = b.others[slot];

@@ -61,7 +61,7 @@ typedef struct {
 #if THIN_WALLS
   real transparency;  // with which neighbours count that a thin wall hides
   bool hiding;        // the neighbour that is added now is one of them
-  real hidden;        // their Σ W V
+  real beyond;        // Σ W V of all that are beyond thin walls, in sight or not
 #endif
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
@@ -94,7 +94,7 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
 #if THIN_WALLS
   n->transparency = R(0.0);
   n->hiding = false;
-  n->hidden = R(0.0);
+  n->beyond = R(0.0);
 #endif
 #if GHOSTS
   n->mirrored = false;
@@ -229,6 +229,14 @@ INLINE bool hidden_in_cell(__constant const parameters_t* p, const walls_t* wall
       if (in[0] * out[0] + in[1] * out[1] + in[2] * out[2] < R(-0.5) && crossing(out, x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0)) return true;
     }
   }
+  return false;
+}
+
+// Whether that way comes out of any thin wall of the cell.
+INLINE bool beyond_thin(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
+  const int cell = cell_index(p, x, y, z);
+  for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k)
+    if (crossing(walls->barriers + BARRIER_COUNT * walls->barrier_list[k], x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0)) return true;
   return false;
 }
 

@@ -123,8 +123,9 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
       if (r2 >= p->support_squared) continue;
       // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
       near->hiding = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz) || hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
-      if (near->hiding) near->hidden += kernel_value(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
       if (near->hiding && near->transparency == R(0.0)) continue;
+      if (near->transparency > R(0.0) && beyond_thin(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
+        near->beyond += kernel_value(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
       add_particle(sums, p, j, rx, ry, rz, r2);
     }
     near->hiding = false;
@@ -295,7 +296,7 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
 #if THIN_WALLS
 // Prepares the walls for what the point sees of them: how much of those that thin ones hide from it counts. About free edges as much as of its neighbours
 // beyond; but on a dry far side there is nothing for the far walls to cancel with.
-INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real transparency, real hidden, real x, real y, real z) {
+INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real transparency, real beyond, real x, real y, real z) {
   walls->share = R(0.0);
   find_screen(p, walls, x, y, z);
   if (transparency == R(0.0)) return;
@@ -318,10 +319,10 @@ INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real 
       }
     }
 #endif
-  // what is hidden is less than the room that the far walls open, some of which is in sight past the edge
-  walls->share = transparency * fmin(R(6.0) * hidden / fmax(room, R(1.0e-4)), R(1.0));
+  // far from full, a far side is not dry
+  walls->share = transparency * fmin(R(20.0) * beyond / fmax(room, R(1.0e-4)), R(1.0));
 }
-#define LOOK_THROUGH(walls, near, x, y, z) look_through(p, &(walls), (near).transparency, (near).hidden, x, y, z)
+#define LOOK_THROUGH(walls, near, x, y, z) look_through(p, &(walls), (near).transparency, (near).beyond, x, y, z)
 #else
 #define LOOK_THROUGH(walls, near, x, y, z)
 #endif
