@@ -135,7 +135,8 @@ Section<WallCase> wall_section() {
   section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
               "The fluid's velocity along a wall.");
   section.key("renormalise_divergence", &WallCase::renormalise_divergence, flag(), "",
-              "Whether the velocity's divergence is divided by the Shepard factor, as the pressure's gradient is.");
+              "With fourtakas or no diffusion: whether the velocity's divergence is divided by the Shepard factor's root, and diffusion by "
+              "the factor.");
   section.key("repulsion", &WallCase::repulsion, number(between(0, 1)), "(c₀/10)²",
               "Of ghosts: strength of a short-range repulsion by the wall; 0 leaves it out.");
   section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
@@ -155,10 +156,11 @@ Section<NumericsCase> numerics_section() {
   section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",
               "Radius R of the kernel's support; `auto` is 4 in 2-D and 3 in 3-D.");
   section.key("walls", &NumericsCase::walls, section_of(wall_section()), "", "Walls of the tank and of the bodies.");
-  section.key("density_diffusion", &NumericsCase::density_diffusion,
-              choice<DensityDiffusion>(
-                  {{"none", DensityDiffusion::none}, {"fourtakas", DensityDiffusion::fourtakas}, {"antuono", DensityDiffusion::antuono}}),
-              "", "Density diffusion of δ-SPH: of the dynamic density, or with renormalised gradients.");
+  section.key(
+      "density_diffusion", &NumericsCase::density_diffusion,
+      choice<DensityDiffusion>(
+          {{"none", DensityDiffusion::none}, {"fourtakas", DensityDiffusion::fourtakas}, {"antuono", DensityDiffusion::antuono}}),
+      "", "Density diffusion of δ-SPH: of the dynamic density, or with renormalised gradients. With none, water at rest does not stay so.");
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
               "Coefficient α of the artificial viscosity.");

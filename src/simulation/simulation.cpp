@@ -128,6 +128,17 @@ void tell_of_thin_walls(const Case& scene, const Discretisation& discretisation,
                           " m: it is taken for a thin plate, through which the water on one side does not feel that on the other.");
 }
 
+void tell_of_noise(const Case& scene) {
+  const WallCase& walls = scene.numerics.walls;
+  if (walls.method == WallMethod::boundary_integral && walls.shepard == ShepardFactor::none)
+    log(LogLevel::warning,
+        "numerics/walls/shepard is none: walls push unevenly, and water at rest does not stay so; it is for comparison only.");
+  if (scene.numerics.density_diffusion != DensityDiffusion::none) return;
+  log(LogLevel::warning,
+      "numerics/density_diffusion is none: nothing damps the noise of pressures, and water at rest does not stay so for long; choose "
+      "fourtakas or antuono unless that is what you look at.");
+}
+
 }  // namespace
 
 struct Simulation::Parts {
@@ -143,6 +154,7 @@ struct Simulation::Parts {
         device(compute::choose_device(scene.device), options.time_kernels),
         solver(prepared_solver()),
         recorder(scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); }) {
+    tell_of_noise(scene);
     tell_of_thin_walls(scene, discretisation, *solver);
     solver->limit_time_step(coupling.longest_time_step());
     initial_bodies = world.save();
@@ -480,6 +492,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   const compute::Device device(compute::choose_device(scene.device));
   const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, reference_points(world));
   solver->limit_time_step(coupling.longest_time_step());
+  tell_of_noise(scene);
   tell_of_thin_walls(scene, discretisation, *solver);
   solver->start();
   solver->advance(mover);  // the first launch of a kernel may still compile it

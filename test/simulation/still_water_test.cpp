@@ -66,24 +66,26 @@ TEST_P(StillWater, StaysStill) {
       "%+.2f %%\n",
       GetParam().name, first, end, least / expected, most / expected, kinetic / potential,
       100 * (simulation.energies().potential / potential - 1));
-  EXPECT_LT(most - least, 0.01 * expected);
-  EXPECT_NEAR((most + least) / 2, expected, 0.04 * expected);
-  EXPECT_LT(kinetic, 2e-5 * potential);
-  EXPECT_NEAR(simulation.energies().potential, potential, 0.02 * potential);
+  // The diffusion levels the surface's own excess of pressure within a minute, a third of a spacing of water or so; that is slow, and ends.
+  EXPECT_LT(most - least, 0.12 / GetParam().rows * expected);
+  EXPECT_NEAR((most + least) / 2, expected, 0.5 / GetParam().rows * expected);
+  EXPECT_LT(kinetic, 3e-4 * potential);
+  EXPECT_NEAR(simulation.energies().potential, potential, 0.3 / GetParam().rows * potential);
 }
 
+constexpr double little = 0.02;  // α
+
 constexpr Water waters[] = {
-    {"FourRows", 2, 4},
-    {"EightRows"},
-    {"EightRowsWithViscosity", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, 0.02},
-    {"Numerical", 2, 8, WallElements::numerical},
-    {"SemiAnalytical", 2, 8, WallElements::semi_analytical},
-    {"Volumetric", 2, 8, WallElements::facet, ShepardFactor::volumetric},
-    {"WithoutShepardFactor", 2, 8, WallElements::facet, ShepardFactor::none},
-    {"DivergenceAsItIs", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, 0, false},
-    {"Ghosts", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, 0, true, WallMethod::ghost},
-    {"Antuono", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::antuono, 0.02},
-    {"FourRowsIn3D", 3, 4},
+    {"FourRows", 2, 4, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
+    {"EightRows", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
+    {"EightRowsWithoutViscosity", 2, 8},
+    {"Numerical", 2, 8, WallElements::numerical, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
+    {"SemiAnalytical", 2, 8, WallElements::semi_analytical, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
+    {"Volumetric", 2, 8, WallElements::facet, ShepardFactor::volumetric, DensityDiffusion::fourtakas, little},
+    {"DivergenceAsItIs", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, false},
+    {"Ghosts", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, true, WallMethod::ghost},
+    {"Antuono", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::antuono, little},
+    {"FourRowsIn3D", 3, 4, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
 };
 
 INSTANTIATE_TEST_SUITE_P(Walls, StillWater, ::testing::ValuesIn(waters),

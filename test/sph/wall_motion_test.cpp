@@ -207,7 +207,7 @@ struct Comparison {
 
 // Water at rest in a tank that moves and turns, with a body in it that moves and turns otherwise. Where a particle sees one wall, of the
 // velocity v + ω × (y − c) at its foot y,
-//   ds/dt = −v·n ∫ W dS/γ   and along the wall   du/dt = 2 μ v ∫ W dS/(γ ρ d).
+//   ds/dt = −v·n ∫ W dS/√γ   and along the wall   du/dt = 2 μ v ∫ W dS/(γ ρ d).
 TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
   for (const int dimensions : {2, 3})
     for (const auto& [name, elements] : every_kind) {
@@ -242,8 +242,8 @@ TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
         const Vector3d velocity = motion.velocity + motion.angular_velocity.cross(foot - centres[seen->owner]);
         const double weight = whole_weight(d, seen->distance) / fluid.shepard[i];
         const auto along = [&n](const Vector3d& v) { return Vector3d(v - v.dot(n) * n); };
-        // twice the paper's, see continuity.cl
-        compression.add(2 * fluid.compression[i] / step * n, -2 * velocity.dot(n) * weight * n);
+        // by √γ, not γ: see continuity.cl
+        compression.add(2 * fluid.compression[i] / step * n, -velocity.dot(n) * weight * std::sqrt(fluid.shepard[i]) * n);
         const double friction =
             2 * tank.scene.fluid.viscosity * weight / (tank.scene.fluid.density * std::max(seen->distance, 0.5 * d.spacing));
         drag.add(along(fluid.velocity[i]) / step, friction * along(velocity));

@@ -1,10 +1,11 @@
 // Continuity of δ-SPH, eqs (33) and (36) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
-//   ds/dt = 1/γ { −(1+s) [Σ_j (u_j−u_i)·∇W V_j + Σ_s 2 (u_s−u_i)·n W S] + diffusion },   s = ρ/ρ₀ − 1
+//   ds/dt = −(1+s)/√γ [Σ_j (u_j−u_i)·∇W V_j + Σ_s (u_s−u_i)·n W S] + diffusion/γ,   s = ρ/ρ₀ − 1
 // One pass over the neighbours, the Shepard factor γ included.
 //
-// The 2 is not the paper's. With it the divergence is minus the transpose of the pressure's gradient, (p_i + p_s) n W S with p_s = p_i, in the energy
-// Σ γ_i (m_i u²/2 + V_i p²/2ρ₀c₀²), and so is what 1/γ makes of the diffusion a loss: water at rest stays so. With 1 in its place each linear field has its
-// exact divergence, but sound gains from every wall that it meets, and water eight rows deep rings by itself.
+// The paper has 1/γ before the bracket and 1 before the diffusion. With it sound gains from every wall that it meets, and water eight rows deep rings by
+// itself: the walls' part of the divergence is not the transpose of that of the pressure's gradient, (p_i + p_s) n W S, and cannot be while both are right
+// for linear fields. Twice the walls' part would be it, and is calm, but the bracket then no longer vanishes where water turns along a wall: impacts get a
+// quarter more. √γ and the diffusion's 1/γ leave what has no divergence as it is, and let each sound in a tank decay (docs/numerics.md).
 #include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -98,7 +99,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->shepard += c.shepard;
 #endif
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x + c.distance * c.normal.x, y + c.distance * c.normal.y, z + c.distance * c.normal.z);
-  const real approach = R(2.0) * dot3(make_vector(wall.x - a->u, wall.y - a->v, wall.z - a->w), c.normal) * c.weight;
+  const real approach = dot3(make_vector(wall.x - a->u, wall.y - a->v, wall.z - a->w), c.normal) * c.weight;
 #if MOVING_WALLS
   a->approach += approach;
   if (c.over && c.distance < p->spacing) {
@@ -180,9 +181,11 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
 #endif
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
-    const real renormalise = RENORMALISE_DIVERGENCE ? R(1.0) / bounded_shepard(b.shepard) : R(1.0);
-    rates[RATE_COMPRESSION * stride + i] = renormalise * (R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k] -
-                                                          (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * with_walls(&b, p));
+    // Antuono's diffusion hardly sees the slowest sound, and needs more
+    const real renormalise = RENORMALISE_DIVERGENCE && !DIFFUSION_ANTUONO ? rsqrt(bounded_shepard(b.shepard)) : R(1.0);
+    rates[RATE_COMPRESSION * stride + i] =
+        renormalise * (renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k] -
+                       (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * with_walls(&b, p));
     rates[RATE_SHEPARD * stride + i] = b.shepard;
   }
 }
