@@ -183,7 +183,7 @@ struct Simulation::Parts {
   /// The fluid's, with those of films that particles do not resolve.
   std::vector<WallWrench> wrenches(Solver& fluid) {
     std::vector<WallWrench> wrenches = fluid.wrenches();
-    const std::vector<RigidLoad> films = film.loads(fluid, coupling.now().frame);
+    const std::vector<RigidLoad> films = film.loads(fluid, coupling.now().frame, true);
     for (std::size_t o = 0; o < wrenches.size(); ++o) {
       wrenches[o][0] += films[o].force;
       wrenches[o][2] += films[o].torque;
@@ -319,7 +319,7 @@ void Simulation::Parts::advance() {
   const double next_time = time + time_step;
   recorder.before_step(*solver, time, next_time);
   coupling.set_time(time);
-  coupling.set_film(film.loads(*solver, coupling.now().frame));
+  coupling.set_film(film.loads(*solver, coupling.now().frame, false));
   report = solver->advance(world.anything_moves() ? &coupling : nullptr);
   const double last_time = std::exchange(time, next_time);
   ++step;

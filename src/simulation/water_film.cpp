@@ -7,8 +7,13 @@
 namespace wavetank {
 namespace {
 
-// Of the spacing. No particle's centre comes nearer to a wall than about half of it, so into a gap of one spacing they fit.
+// Of the spacing. No particle's centre comes nearer to a wall than about half of it, so that into a gap of one spacing they fit, but not into
+// one of half of that.
 constexpr double closed_gap = 0.5, open_gap = 1.0;
+
+// Wider gaps have a film as far as particles have not come into them, up to the first of these; at the second they are open water.
+// facing_walls.cl has the same four.
+constexpr double narrow_gap = 2.0, wide_gap = 2.5;
 
 // The pressure is read this far off the surface, in the gap's water if it has any: on the surface itself, where two walls touch, γ has no
 // one value.
@@ -23,9 +28,12 @@ constexpr double opposite = -0.5;
 // Walls face each other if they lean less than 45° from it.
 constexpr double facing = -0.7;
 
-// Particles beside a covered face press on what of it is in their reach, by 2 p times their Σ W V at an element: a face in open water has a
-// half of its kernel filled.
-constexpr double full_wetness = 0.5;
+/// How much of a gap is film, from how wide it is and how full the kernel of particles at its wall: `filling` of what `room` walls leave.
+double film_share(double gap, double filling, double room) {
+  const double closed = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
+  const double narrow = std::clamp((wide_gap - gap) / (wide_gap - narrow_gap), 0.0, 1.0);
+  return std::max(closed, narrow * std::clamp(1.0 - filling / std::max(room, 0.05), 0.0, 1.0));
+}
 
 Vector3d nearest_on_segment(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const Vector3d side = b - a;
@@ -46,9 +54,7 @@ std::vector<std::vector<int>> neighbours(std::vector<WallElement>& elements, dou
   return beside;
 }
 
-bool has_film(const Case& scene, const RigidWorld& world, int owner) {
-  return owner > 0 && world.is_free(owner) && scene.bodies[owner - 1].rigid.water_film;
-}
+bool has_film(const Case& scene, int owner) { return owner > 0 && scene.bodies[owner - 1].rigid.water_film; }
 
 }  // namespace
 
@@ -68,7 +74,7 @@ WaterFilm::WaterFilm(const RigidWorld& world, const Case& scene, const Layout& l
     surface.box.extend(box);
   }
   for (const WallElement& element : layout.walls)
-    if (has_film(scene, world, element.owner)) surfaces_[element.owner].elements.push_back(element);
+    if (has_film(scene, element.owner)) surfaces_[element.owner].elements.push_back(element);
   for (Surface& surface : surfaces_) surface.beside = neighbours(surface.elements, neighbour_distance * spacing_);
 }
 
@@ -82,13 +88,13 @@ Eigen::Isometry3d WaterFilm::pose(std::size_t owner) const {
   return pose;
 }
 
-/// Where `other` covers elements of `body` more than any before.
+/// Where `other` is nearer to elements of `body` than any before.
 void WaterFilm::cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const {
   const Surface& own = surfaces_[body];
   const Surface& across = surfaces_[other];
   const Eigen::Isometry3d seen = pose(other).inverse() * pose(body);
   Eigen::AlignedBox3d box = own.box.transformed(seen);
-  const double reach = open_gap * spacing_;
+  const double reach = wide_gap * spacing_;
   box.min().array() -= reach;
   box.max().array() += reach;
   if (!box.intersects(across.box)) return;
@@ -108,8 +114,7 @@ void WaterFilm::cover(std::size_t body, std::size_t other, std::vector<Cover>& c
       const Vector3d nearest = dimensions_ == 2 ? nearest_on_segment(place, facet.corners[0], facet.corners[1])
                                                 : nearest_on_triangle(place, facet.corners[0], facet.corners[1], facet.corners[2]);
       const double gap = (nearest - place).norm() / spacing_;
-      const double share = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
-      if (share > covers[e].share) covers[e] = {other, share};
+      if (gap < wide_gap && (!covers[e].covered || gap < covers[e].gap)) covers[e] = {true, other, gap, 0};
     }
   }
 }
@@ -159,14 +164,14 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
   return pressures;
 }
 
-std::vector<WaterFilm::Film> WaterFilm::find() const {
+std::vector<WaterFilm::Film> WaterFilm::find(bool of_all) const {
   std::vector<Film> films;
   for (std::size_t body = 1; body < surfaces_.size(); ++body) {
     const Surface& surface = surfaces_[body];
-    if (surface.elements.empty()) continue;
+    if (surface.elements.empty() || !(of_all || world_.is_free(body))) continue;
     Film film{body, pose(body), covers(body), std::vector<char>(surface.elements.size(), 0), {}};
     for (std::size_t e = 0; e < film.covers.size(); ++e) {
-      if (film.covers[e].share <= 0) continue;
+      if (!film.covers[e].covered) continue;
       film.wanted[e] = 1;
       for (const int other : surface.beside[e]) film.wanted[other] = 1;
     }
@@ -190,8 +195,11 @@ void WaterFilm::read(Solver& fluid, std::vector<Film>& films) {
   auto next = found.begin();
   for (Film& film : films) {
     film.fluid.resize(film.wanted.size());
-    for (std::size_t e = 0; e < film.wanted.size(); ++e)
+    for (std::size_t e = 0; e < film.wanted.size(); ++e) {
       if (film.wanted[e]) film.fluid[e] = *next++;
+      Cover& cover = film.covers[e];
+      if (cover.covered) cover.share = film_share(cover.gap, film.fluid[e].filling, film.fluid[e].shepard);
+    }
   }
 }
 
@@ -202,9 +210,10 @@ void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& fr
   const std::vector<double> pressures = film_pressures(film, density_ * (film.to_tank.linear().transpose() * gravity));
   for (std::size_t e = 0; e < surface.elements.size(); ++e) {
     // of two bodies with films the first one's elements count for both
-    const auto& [other, share] = film.covers[e];
+    const auto& [covered, other, gap, share] = film.covers[e];
     if (share <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
-    const double dry = 1.0 - std::min(film.fluid[e].filling / full_wetness, 1.0);
+    // particles beside a covered face press on its rim by 2 p Σ W V, and half of that is more than they miss at the wall across (facing_walls.cl)
+    const double dry = 1.0 - std::min(film.fluid[e].filling, 1.0);
     const WallElement& element = surface.elements[e];
     const Vector3d force = share * dry * pressures[e] * element.area * (film.to_tank.linear() * element.normal);
     const Vector3d place = film.to_tank * element.centre;
@@ -217,11 +226,11 @@ void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& fr
   }
 }
 
-std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame) {
+std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame, bool of_all) {
   std::vector<Film> films;
   {
     const Stopwatch::Lap lap(time_);
-    films = find();
+    films = find(of_all);
   }
   std::vector<RigidLoad> loads(surfaces_.size());
   if (films.empty()) return loads;

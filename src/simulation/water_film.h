@@ -11,7 +11,8 @@
 
 namespace wavetank {
 
-/// The water between a free body and a wall that it lies on or nearly touches, where the gap is too narrow for particles.
+/// The water between a body and a wall that it lies on or nearly touches, where the gap is too narrow for particles or they have not come
+/// into it.
 ///
 /// A slow film in a gap of even width obeys Reynolds' equation, ∇²(p − ρ g·x) = 0 along the gap, with the fluid's pressure around its rim.
 /// So here: the elements of a body's surface that a wall covers have the pressure that is harmonic, but for the water's weight, between
@@ -24,8 +25,8 @@ class WaterFilm {
   WaterFilm(const RigidWorld& world, const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
 
   /// The films' loads in the present state, one an owner about its reference point, in the tank's axes; `frame`: of a tank that moves. All
-  /// zero, and nothing asked of the fluid, where no free body is near a wall.
-  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame);
+  /// zero, and nothing asked of the fluid, where no body is near a wall. `of_all`: not of free bodies alone.
+  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame, bool of_all);
 
   /// Looking for films and solving them so far, without the fluid's part.
   const Stopwatch& time() const { return time_; }
@@ -35,12 +36,14 @@ class WaterFilm {
     std::vector<Facet> facets;
     std::vector<Eigen::AlignedBox3d> boxes;  ///< of each facet
     Eigen::AlignedBox3d box;
-    std::vector<WallElement> elements;  ///< of a free body; so are the neighbours of each
+    std::vector<WallElement> elements;  ///< of a body that has films; so are the neighbours of each
     std::vector<std::vector<int>> beside;
   };
   struct Cover {
-    std::size_t owner = 0;  ///< of the wall across the gap
-    double share = 0;       ///< of the film: 0 where the gap is open, 1 where no particle gets in
+    bool covered = false;   ///< a wall is across
+    std::size_t owner = 0;  ///< of that wall
+    double gap = 0;         ///< to it, in spacings
+    double share = 0;       ///< of the film: 0 where the gap is open water, 1 where there are no particles
   };
 
   struct Film {
@@ -51,7 +54,7 @@ class WaterFilm {
     std::vector<PointValue> fluid;
   };
 
-  std::vector<Film> find() const;
+  std::vector<Film> find(bool of_all) const;
   std::vector<Cover> covers(std::size_t body) const;
   void cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const;
   /// The fluid at the covered elements and those beside them; zero at the others.

@@ -5,18 +5,18 @@
 // n S its surface and b the part of the kernel at s that lies behind the other owner's walls (their part of 1 − γ), water behind them under this pressure
 // would add 2 p b n S. Taken half from either side, so that what the one gets the other loses, it is p b n S from every place of both. In a gap of even
 // width this makes the force on either wall the pressure's integral over it, however narrow the gap is: of the kernel at a wall what particles fill and
-// what lies behind the other wall is one half together. A gap of a few spacings may hold a row more or less than fits, which Σ W V tells: there b is what
-// the owner's own walls and the particles leave of the kernel. (Air counts then too; where air is so near, the pressure is next to nothing.)
+// what lies behind the other wall is one half together.
 //
-// Places that face another owner's walls nearer than FILM_CLOSED to FILM_OPEN spacings have no particles between: there the water film acts
-// (src/simulation/water_film.h) and this fades out.
+// A narrow gap may hold fewer particles than it has room for, or none: as far as that is so the water film acts (src/simulation/water_film.h), and less of
+// this. Or a row more than fits, which Σ W V tells: then b is what the owner's own walls and the particles leave of the kernel.
 #include "walls.cl"
 #include "linear_fit.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
-#define NARROW R(2.5)  // spacings: up to here the particles in a gap are counted ...
-#define WIDE R(3.5)    // ... and from here on they fill it as any water
+// Of the spacing; as water_film.cpp has them: up to the first the particles in a gap are counted, and from the second on it is filled as any water.
+#define NARROW_GAP R(2.0)
+#define WIDE_GAP R(2.5)
 
 typedef struct {
   neighbours_t near;
@@ -118,16 +118,19 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
     gap = fmin(gap, b.gap[slot]);
     behind += b.seen[slot] ? b.behind[slot] : R(0.0);
   }
-  const real narrow = fmin(fmax((WIDE * p->spacing - gap) / ((WIDE - NARROW) * p->spacing), R(0.0)), R(1.0));
-  const real left = fmax(R(1.0) - b.own - fit.weight, R(0.0));
-  const real filled = behind > R(1.0e-3) ? R(1.0) + narrow * (left / behind - R(1.0)) : R(1.0);
+  gap /= p->spacing;
+  const real room = fmax(R(1.0) - b.own - behind, R(0.05));
+  const real closed = fmin(fmax((FILM_OPEN - gap) / (FILM_OPEN - FILM_CLOSED), R(0.0)), R(1.0));
+  const real narrow = fmin(fmax((WIDE_GAP - gap) / (WIDE_GAP - NARROW_GAP), R(0.0)), R(1.0));
+  const real film = fmax(closed, narrow * fmin(fmax(R(1.0) - fit.weight / room, R(0.0)), R(1.0)));
+  const real crowded = narrow * fmax(fit.weight - room, R(0.0));
+  const real open = (R(1.0) - film) * (behind > crowded ? R(1.0) - crowded / behind : R(0.0));
   places[s] = x;
   places[count + s] = y;
   places[2 * count + s] = z;
   for (int slot = 0; slot < FACING_OWNERS; ++slot) {
     if (b.others[slot] == NO_OWNER || !b.seen[slot]) continue;
-    const real open = fmin(fmax((b.gap[slot] - FILM_CLOSED * p->spacing) / ((FILM_OPEN - FILM_CLOSED) * p->spacing), R(0.0)), R(1.0));
-    const real push = open * filled * pressure * b.behind[slot];
+    const real push = open * pressure * b.behind[slot];
     others[slot * count + s] = b.others[slot];
     forces[3 * slot * count + s] = push * surface.x;
     forces[(3 * slot + 1) * count + s] = push * surface.y;
