@@ -21,7 +21,7 @@ class Looker {
         dimensions_(dimensions),
         thickness_((1 - rounding) * thickness),
         tolerance_(1e-4 * layout.spacing) {
-    if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), thickness, tolerance_);
+    if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), tolerance_);
     for (const Facet& facet : facets_) {
       Box box{facet.corners[0], facet.corners[0]};
       for (const Vector3d& corner : facet.corners) {
@@ -30,6 +30,17 @@ class Looker {
       }
       boxes_.push_back(box);
     }
+  }
+
+  /// Facets that meet the box about the points, give or take a tolerance; ascending.
+  std::vector<int> about(const Vector3d* begin, const Vector3d* end, double tolerance) const {
+    if (!grid_) return {};
+    Box box{*begin, *begin};
+    for (const Vector3d* point = begin; point != end; ++point) {
+      box.min = box.min.cwiseMin(*point);
+      box.max = box.max.cwiseMax(*point);
+    }
+    return grid_->overlapping({box.min.array() - tolerance, box.max.array() + tolerance});
   }
 
   /// How thick the wall of an owner is behind a place; none if it is thicker than asked.
@@ -79,9 +90,11 @@ class Looker {
   std::optional<TriangleGrid> grid_;
 };
 
-/// Points all over a facet, a few an edge.
-std::vector<Vector3d> places_on(const Facet& facet, int dimensions) {
-  constexpr int fineness = 6;
+/// Points all over a facet, a few an edge; fewer on one that is small beside the thickness.
+std::vector<Vector3d> places_on(const Facet& facet, int dimensions, double thickness) {
+  double longest = 0;
+  for (int k = 0; k < dimensions; ++k) longest = std::max(longest, (facet.corners[(k + 1) % dimensions] - facet.corners[k]).norm());
+  const int fineness = static_cast<int>(std::ceil(6 * std::min(1.0, longest / thickness)));
   std::vector<Vector3d> places;
   for (int i = 0; i < fineness; ++i) {
     if (dimensions == 2) {
@@ -119,7 +132,7 @@ bool is_rim(const Facet& facet, const Facet& face, double thickness, double tole
 }
 
 /// The free edges of thin facets. Neighbours share both ends of an edge; a sheet's two sides are no neighbours.
-std::vector<Brim> find_brims(const Layout& layout, const std::vector<bool>& thin, int dimensions) {
+std::vector<Brim> find_brims(const Layout& layout, const Looker& looker, const std::vector<bool>& thin, int dimensions) {
   const double tolerance = 1e-3 * layout.spacing;
   const auto same = [&](const Vector3d& a, const Vector3d& b) { return (a - b).norm() < tolerance; };
   std::vector<Brim> brims;
@@ -142,8 +155,10 @@ std::vector<Brim> find_brims(const Layout& layout, const std::vector<bool>& thin
       brim.inwards = inwards.normalized();
       bool goes_on = false, stands_on_wall = false;
       const Vector3d middle = 0.5 * (brim.from + brim.to);
-      for (std::size_t g = 0; g < layout.facets.size() && !goes_on && !stands_on_wall; ++g) {
-        if (g == f) continue;
+      const Vector3d ends_of_edge[2] = {brim.from, brim.to};
+      for (const int g : looker.about(ends_of_edge, ends_of_edge + 2, tolerance)) {
+        if (goes_on || stands_on_wall) break;
+        if (g == static_cast<int>(f)) continue;
         const Facet& other = layout.facets[g];
         int shared = 0;
         for (int c = 0; c < ends; ++c) shared += same(other.corners[c], brim.from) || same(other.corners[c], brim.to) ? 1 : 0;
@@ -171,7 +186,7 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   const Looker looker(layout, dimensions, thickness);
   for (const Facet& facet : layout.facets) {
     bool thin = false;
-    for (const Vector3d& place : places_on(facet, dimensions)) {
+    for (const Vector3d& place : places_on(facet, dimensions, thickness)) {
       const std::optional<double> found = looker.look(place, facet.normal, facet.owner);
       if (!found) continue;
       thin = true;
@@ -181,11 +196,15 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   }
   const std::vector<bool> faces = parts.facets;
   if (parts.thinnest) {
-    for (std::size_t r = 0; r < faces.size(); ++r)
-      for (std::size_t f = 0; f < faces.size() && !parts.facets[r]; ++f)
-        if (faces[f]) parts.facets[r] = is_rim(layout.facets[r], layout.facets[f], thickness, 1e-3 * layout.spacing);
+    const double tolerance = 1e-3 * layout.spacing;
+    for (std::size_t r = 0; r < faces.size(); ++r) {
+      const Facet& facet = layout.facets[r];
+      if (faces[r]) continue;
+      for (const int f : looker.about(facet.corners, facet.corners + dimensions, tolerance))
+        if (faces[f] && is_rim(facet, layout.facets[f], thickness, tolerance)) parts.facets[r] = true;
+    }
   }
-  if (parts.thinnest) parts.brims = find_brims(layout, parts.facets, dimensions);
+  if (parts.thinnest) parts.brims = find_brims(layout, looker, parts.facets, dimensions);
   for (const Facet& triangle : layout.triangles) {
     const Vector3d middle = dimensions == 2 ? Vector3d(0.5 * (triangle.corners[0] + triangle.corners[1]))
                                             : Vector3d((triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0);
