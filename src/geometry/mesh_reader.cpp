@@ -138,8 +138,11 @@ void place(TriangleMesh& mesh, const MeshSource& source, const std::string& what
        Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX()))
           .toRotationMatrix();
   for (Vector3d& vertex : mesh.vertices) {
-    vertex = rotation * (source.scale * vertex) + source.translation;
+    vertex = rotation * source.scale.cwiseProduct(vertex) + source.translation;
     if (!vertex.allFinite()) throw Error(what + ": its scale, rotation or translation makes vertices that are not finite numbers");
+  }
+  if (source.scale.prod() < 0) {  // mirrored: what was wound outwards is to stay so
+    for (Vector3i& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }
 }
 

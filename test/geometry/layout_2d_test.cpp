@@ -128,7 +128,7 @@ TEST_F(Layout2d, ARoundBodyOfShortSegmentsGetsElementsOfTheSpacing) {
   BodyCase body;
   body.name = "cylinder";
   MeshSource sphere = source(repository_mesh("sphere.stl"));
-  sphere.scale = 0.4;
+  sphere.scale = Vector3d::Constant(0.4);
   sphere.translation = Vector3d(0.5, 0.001, 0.5);
   body.shape = sphere;
   checked.bodies = {body};

@@ -2,6 +2,7 @@
 
 #include "geometry_fixture.h"
 #include "wavetank/common/log.h"
+#include "wavetank/scene/case_reader.h"
 
 namespace wavetank {
 namespace {
@@ -46,6 +47,42 @@ BodyCase box_body(const std::string& name, const Vector3d& low, const Vector3d& 
   body.name = name;
   body.shape = Box{low, high};
   return body;
+}
+
+/// Links as a user writes them: meshes in millimetres beside the URDF, one mirrored, one stretched.
+TEST_F(LayoutFluid, MeshesOfARobotAreMirroredAndStretched) {
+  TriangleMesh wedge;
+  for (const double y : {0.0, 150.0})
+    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(200, y, 0), Vector3d(0, y, 100)}) wedge.vertices.push_back(corner);
+  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  write("wedge_mm.obj", wedge);
+  std::string urdf = "<robot name=\"pair\">";
+  const std::pair<const char*, const char*> links[] = {
+      {"left", "0.001 0.001 0.001"}, {"right", "0.001 -0.001 0.001"}, {"large", "0.0015 0.0015 0.0015"}, {"flat", "0.002 0.001 -0.0005"}};
+  const char* places[] = {"0 0 0", "0 -0.05 0", "0.3 0 0", "0.3 -0.2 0.2"};
+  for (int k = 0; k < 4; ++k) {
+    const std::string name = links[k].first;
+    urdf += "<link name=\"" + name + "\"><collision><geometry><mesh filename=\"wedge_mm.obj\" scale=\"" + links[k].second +
+            "\"/></geometry></collision></link>";
+    if (k > 0) {
+      urdf += "<joint name=\"to_" + name + "\" type=\"fixed\"><parent link=\"left\"/><child link=\"" + name + "\"/><origin xyz=\"" +
+              places[k] + "\"/></joint>";
+    }
+  }
+  write("robot.urdf", urdf + "</robot>");
+  const Case checked = read_case_file(
+      write("case.yaml",
+            "duration: 1\nfluid: {spacing: 0.04, fill: [{box: {min: [0, 0, 0], max: [1, 0.7, 0.5]}}]}\ntank: {box: {size: [1, 0.7, 0.6]}}\n"
+            "robots: [{urdf: robot.urdf, position: [0.1, 0.4, 0.15], motion: fixed}]\n"));
+  const Layout layout = lay_out(checked);
+  ASSERT_EQ(layout.meshes.size(), 5u);
+  const double volumes[] = {0.0015, 0.0015, 0.0050625, 0.0015};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(layout.meshes[k + 1].signed_volume(), volumes[k], 1e-8) << links[k].first;
+    EXPECT_NEAR(sums_of(layout, k + 1).divergence, -3 * volumes[k], 1e-6) << links[k].first;
+  }
+  EXPECT_NEAR(layout.meshes[2].bounding_box().min.y(), 0.2, 1e-6);
+  EXPECT_NEAR(layout.meshes[4].bounding_box().min.z(), 0.3, 1e-6);
 }
 
 TEST_F(LayoutFluid, ABoxIsFilledToItsExactVolume) {
@@ -235,7 +272,7 @@ TEST_F(LayoutFluid, WaterThatABodyPartsFromTheRestOfABoxIsTold) {
     EXPECT_TRUE(warnings(sunk).empty());
     Case two = checked;
     two.bodies[0].name = "left";
-    std::get<MeshSource>(two.bodies[0].shape).scale = 0.7;
+    std::get<MeshSource>(two.bodies[0].shape).scale = Vector3d(0.7, 1, 1);
     std::get<MeshSource>(two.bodies[0].shape).translation.z() = 0.2;
     std::get<MeshSource>(two.bodies[0].shape).translation.x() = 0.2;
     two.bodies.push_back(two.bodies[0]);

@@ -47,12 +47,29 @@ TEST_F(MeshReader, ReadsPlyAndOff) {
 
 TEST_F(MeshReader, ScalesThenRotatesThenTranslates) {
   MeshSource from = source(write("box.obj", box_mesh({Vector3d::Zero(), Vector3d(1000, 2000, 3000)}, false, "")));
-  from.scale = 1e-3;
+  from.scale = Vector3d::Constant(1e-3);
   from.rotation = Vector3d(0, 0, M_PI / 2);  // x to y, y to −x
   from.translation = Vector3d(10, 20, 30);
   const Box box = read(from).bounding_box();
   EXPECT_TRUE(box.min.isApprox(Vector3d(8, 20, 30), 1e-9)) << box.min.transpose();
   EXPECT_TRUE(box.max.isApprox(Vector3d(10, 21, 33), 1e-9)) << box.max.transpose();
+}
+
+TEST_F(MeshReader, MirrorsAndStretches) {
+  // A wedge in millimetres: the half of a box of 0.2 × 0.15 × 0.1 m below its diagonal.
+  TriangleMesh wedge;
+  for (const double y : {0.0, 150.0})
+    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(200, y, 0), Vector3d(0, y, 100)}) wedge.vertices.push_back(corner);
+  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  MeshSource from = source(write("wedge_mm.obj", wedge));
+  for (const Vector3d& signs : {Vector3d(1, 1, 1), Vector3d(1, -1, 1), Vector3d(-1, -1, 1), Vector3d(-1, -1, -1)}) {
+    from.scale = 1e-3 * signs;
+    const TriangleMesh mesh = read(from);
+    EXPECT_NEAR(mesh.signed_volume(), 0.0015, 1e-12) << signs.transpose();
+    EXPECT_LT((mesh.centre_of_volume() - signs.cwiseProduct(Vector3d(0.2 / 3, 0.075, 0.1 / 3))).norm(), 1e-12) << signs.transpose();
+  }
+  from.scale = Vector3d(0.002, 0.003, -0.0005);
+  EXPECT_NEAR(read(from).signed_volume(), 0.0045, 1e-12);
 }
 
 TEST_F(MeshReader, RotatesAboutFixedAxesRollFirst) {
@@ -253,7 +270,7 @@ TEST_F(MeshReader, RefusesAStlWithInfiniteVertices) {
 
 TEST_F(MeshReader, RefusesAScaleThatOverflows) {
   MeshSource from = source(repository_mesh("spheric2_box.stl"));
-  from.scale = std::numeric_limits<double>::infinity();
+  from.scale = Vector3d::Constant(std::numeric_limits<double>::infinity());
   EXPECT_ERROR(read(from), "not finite");
 }
 
