@@ -106,19 +106,13 @@ Cell free_middle(const Basin& basin, double spacing, const FilledRegion& region)
   return middle;
 }
 
-/// Every cell must be joined to the box's middle by open space inside the tank, around its baffles if need be. Bodies do not count.
-void check_within_tank(const Basin& basin, double spacing, const FilledRegion& region) {
-  OpenSpace space(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::tank);
-  space.flood({centre_of(region, free_middle(basin, spacing, region))});
-  std::vector<char> joined(region.filled.size(), 0);
+/// Marks the cells that can be come to from marked ones without crossing the tank's walls.
+void join_within_tank(const Basin& basin, const FilledRegion& region, std::vector<char>& joined) {
   std::vector<std::size_t> queue;
   for (std::size_t c = 0; c < joined.size(); ++c) {
-    if (!space.reached(region.position[c], region.position[c])) continue;
-    joined[c] = 1;
-    queue.push_back(c);
+    if (joined[c]) queue.push_back(c);
   }
-  if (queue.size() == joined.size()) return;
-  while (!queue.empty()) {  // gaps that are too narrow for the voxels of the open space
+  while (!queue.empty()) {
     const std::size_t c = queue.back();
     queue.pop_back();
     visit_neighbours(region, cell_at(region, c), [&](const Cell& other, int, int) {
@@ -129,6 +123,19 @@ void check_within_tank(const Basin& basin, double spacing, const FilledRegion& r
       queue.push_back(o);
     });
   }
+}
+
+/// Every cell must be joined to the box's middle by open space inside the tank, around its baffles if need be. Bodies do not count.
+void check_within_tank(const Basin& basin, double spacing, const FilledRegion& region) {
+  const Cell middle = free_middle(basin, spacing, region);
+  std::vector<char> joined(region.filled.size(), 0);
+  joined[region.index(middle[0], middle[1], middle[2])] = 1;
+  join_within_tank(basin, region, joined);
+  if (std::find(joined.begin(), joined.end(), 0) == joined.end()) return;  // mostly, and the tank may be far larger than the box
+  OpenSpace space(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::tank);
+  space.flood({centre_of(region, middle)});
+  for (std::size_t c = 0; c < joined.size(); ++c) joined[c] = joined[c] || space.reached(region.position[c], region.position[c]);
+  join_within_tank(basin, region, joined);  // gaps that are too narrow for the voxels of the open space
   for (std::size_t c = 0; c < joined.size(); ++c) {
     if (joined[c] || basin.grid->nearest(region.position[c], 0.05 * spacing)) continue;
     throw Error(region.key + ": the box sticks out of the tank: a wall of the tank parts " + describe(region.position[c]) +
@@ -198,8 +205,8 @@ Box flood_lattice(const Basin& basin, const Vector3d& seed, FilledRegion& region
       if (is_inside(region, other) && region.filled[region.index(other[0], other[1], other[2])]) return;
       Vector3d to = from;
       to[axis] += way * region.step[axis];
-      if (const auto fraction = basin.grid->first_crossing(from, to)) {
-        const double wall = from[axis] + *fraction * (to[axis] - from[axis]);
+      if (const auto crossing = basin.grid->first_crossing(from, to)) {
+        const double wall = from[axis] + crossing->fraction * (to[axis] - from[axis]);
         if (way < 0) walls.min[axis] = std::min(walls.min[axis], wall);
         if (way > 0 && axis < 2) walls.max[axis] = std::max(walls.max[axis], wall);
         return;

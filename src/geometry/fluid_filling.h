@@ -34,6 +34,7 @@ struct FilledRegion {
   Vector3i count;
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
+  std::vector<char> taken;         ///< cells without a particle of their own because one beside them has all of a narrow gap's room
   double level = 0;                ///< top of the region, m
   double volume = 0;               ///< of a cell, m³ (2-D: m²)
 
@@ -54,8 +55,15 @@ FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spaci
 /// room.
 void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 
+/// In gaps between walls that face each other, empties cells whose particle would not fit: all of a gap narrower than a cell, and so many
+/// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.
+void keep_out_of_gaps(const Basin& basin, FilledRegion& region);
+
 /// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's level.
 void check_watertight(const Basin& basin, double spacing, const FilledRegion& region);
+
+/// Warns of each body that parts water of a box from the rest of that box's, as an open boat does whose inside a box fills too.
+void tell_of_parted_water(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions);
 
 /// Throws Error if particles of two regions are nearer than half the spacing.
 void check_overlap(const std::vector<FilledRegion>& regions, double spacing);

@@ -9,6 +9,7 @@
 #include "polygon.h"
 #include "wall_facing.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/log.h"
 
 namespace wavetank {
 namespace {
@@ -20,6 +21,8 @@ struct Part {
   TriangleMesh mesh;
   Outline outline;  ///< in 2-D
 };
+
+Box bounds_of(const Part& part, int dimensions) { return dimensions == 2 ? bounding_box(part.outline) : part.mesh.bounding_box(); }
 
 /// Errors of a mesh say whose it is.
 template <class Make>
@@ -100,7 +103,7 @@ TriangleGrid make_grid(const std::vector<Part>& parts, int dimensions, double sp
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), owner});
   }
-  return TriangleGrid(triangles, spacing, touching * spacing);
+  return TriangleGrid(triangles, touching * spacing);
 }
 
 Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box& domain) {
@@ -124,6 +127,7 @@ std::vector<FilledRegion> fill(const Case& checked, const Basin& basin, double s
       regions.push_back(fill_flood(basin, std::get<FloodFill>(region), spacing, key));
     }
     keep_off_walls(basin, spacing, regions.back());
+    keep_out_of_gaps(basin, regions.back());
   }
   return regions;
 }
@@ -181,10 +185,12 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
 }
 
 /// Samples one part's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
-void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+/// `within`: what lies outside of it is not wetted.
+void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, const Box& within,
+                  Layout& layout) {
   const int dimensions = checked.dimensions;
   const std::vector<WallPatch> patches =
-      dimensions == 2 ? sample_outline(part.outline, layout.spacing) : sample_mesh(part.mesh, layout.spacing);
+      dimensions == 2 ? sample_outline(part.outline, layout.spacing, within) : sample_mesh(part.mesh, layout.spacing, within);
   std::vector<WallElement> walls = face_walls(patches, owner, open, grid, layout.spacing);
   if (dimensions == 2) {
     for (WallElement& wall : walls) {
@@ -206,22 +212,46 @@ void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const Case&
   std::vector<bool> alone(parts.size(), false);
   alone[p] = true;
   const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, alone);
-  Box room = checked.dimensions == 2 ? bounding_box(parts[p].outline) : parts[p].mesh.bounding_box();
+  Box room = bounds_of(parts[p], checked.dimensions);
   Vector3d margin = Vector3d::Constant(3 * layout.spacing);
   if (checked.dimensions == 2) margin.y() = 0;
   room.min -= margin;
   room.max += margin;
   OpenSpace outside(room, checked.dimensions, layout.spacing, grid, Walls::all);
   outside.flood({room.min + margin / 6, room.max - margin / 6});
-  add_walls_of(parts[p], static_cast<int>(p), outside, grid, checked, layout);
+  add_walls_of(parts[p], static_cast<int>(p), outside, grid, checked, room, layout);
+}
+
+/// A body of any size may stand in a tank; but not one of any number of cells of the spacing.
+void check_sizes(const Case& checked, const std::vector<Part>& parts, const Layout& layout) {
+  constexpr double most_cells = 1e8, many_tanks = 10;
+  const double tank = (layout.domain.max - layout.domain.min).maxCoeff();
+  for (std::size_t b = 0; b < checked.bodies.size(); ++b) {
+    const Box box = bounds_of(parts[b + 1], checked.dimensions);
+    const Vector3d size = box.max - box.min;
+    const std::string reaches =
+        "body '" + checked.bodies[b].name + "' reaches from " + describe(box.min) + " to " + describe(box.max) + " m";
+    double cells = (size / layout.spacing).maxCoeff();
+    if (layout.moving[b + 1]) cells = (size / layout.spacing).array().max(1).prod();
+    if (cells > most_cells) {
+      throw Error(reaches + ", too far for a particle spacing of " + describe(layout.spacing) + " m: " + describe(cells) +
+                  " cells, and 1e8 at most are allowed; make it smaller, or check the scale of its mesh");
+    }
+    const double beyond = std::max((layout.domain.min - box.min).maxCoeff(), (box.max - layout.domain.max).maxCoeff());
+    if (beyond > many_tanks * tank)
+      log(LogLevel::warning,
+          reaches + ", far out of the tank, which is " + describe(tank) + " m long; the water meets only what is in the tank");
+  }
 }
 
 void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+  const Vector3d margin = Vector3d::Constant(2 * layout.spacing);
+  const Box near{layout.domain.min - margin, layout.domain.max + margin};
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (layout.moving[p])
       add_moving_walls(parts, p, checked, layout);
     else
-      add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, layout);
+      add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, near, layout);
   }
 }
 
@@ -247,21 +277,23 @@ void open_periodic_ends(const std::array<bool, 3>& periodic, Layout& layout) {
 Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
   std::vector<Part> parts = read_parts(checked, resolve);
   Layout layout;
-  layout.domain = checked.dimensions == 2 ? bounding_box(parts[0].outline) : parts[0].mesh.bounding_box();
+  layout.domain = bounds_of(parts[0], checked.dimensions);
 
   Basin basin = make_basin(checked, parts, layout.domain);
   layout.spacing = choose_spacing(checked, parts, basin);
   const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing);
   basin.grid = &grid;
+  layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
+  for (std::size_t b = 0; b < checked.bodies.size(); ++b) layout.moving[b + 1] = checked.bodies[b].motion != Motion::fixed;
+  check_sizes(checked, parts, layout);
 
   const std::vector<FilledRegion> regions = fill(checked, basin, layout.spacing);
   for (const FilledRegion& region : regions) check_watertight(basin, layout.spacing, region);
   check_overlap(regions, layout.spacing);
+  tell_of_parted_water(checked, basin, layout.spacing, regions);
   add_particles(regions, layout);
   if (layout.particles.empty()) throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
 
-  layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
-  for (std::size_t b = 0; b < checked.bodies.size(); ++b) layout.moving[b + 1] = checked.bodies[b].motion != Motion::fixed;
   std::vector<bool> standing = layout.moving;
   standing.flip();
   const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);

@@ -51,11 +51,12 @@ class ParticleFinder {
   std::unordered_map<std::int64_t, std::vector<Entry>> cells_;
 };
 
-bool is_filled(const FilledRegion& region, const int cell[3]) {
+/// Whether a cell is one of the region's and has the mark.
+bool is_marked(const FilledRegion& region, const std::vector<char>& mark, const int cell[3]) {
   for (int axis = 0; axis < 3; ++axis) {
     if (cell[axis] < 0 || cell[axis] >= region.count[axis]) return false;
   }
-  return region.filled[region.index(cell[0], cell[1], cell[2])];
+  return mark[region.index(cell[0], cell[1], cell[2])];
 }
 
 WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int axis, int way) {
@@ -94,13 +95,13 @@ std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std:
       for (int j = 0; j < region.count[1]; ++j) {
         for (int i = 0; i < region.count[0]; ++i) {
           const int cell[3] = {i, j, k};
-          if (!is_filled(region, cell)) continue;
+          if (!is_marked(region, region.filled, cell)) continue;
           for (int side = 0; side < 6; ++side) {
             const int axis = side / 2, way = side % 2 ? 1 : -1;
             if (region.step[axis] == 0) continue;
             int neighbour[3] = {i, j, k};
             neighbour[axis] += way;
-            if (is_filled(region, neighbour)) continue;
+            if (is_marked(region, region.filled, neighbour) || is_marked(region, region.taken, neighbour)) continue;
             const Vector3d from = region.centre(i, j, k);
             const Vector3d to = region.centre(neighbour[0], neighbour[1], neighbour[2]);
             // A little farther than the next centre: a cell that stays empty because it touches a wall needs no lid before that wall.

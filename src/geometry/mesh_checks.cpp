@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh_shells.h"
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wavetank/common/error.h"
@@ -10,56 +11,65 @@
 namespace wavetank {
 namespace {
 
-/// Whether the neighbour runs along the shared edge in the same direction as this triangle, that is, is wound the other way.
-bool wound_against(const TriangleMesh& mesh, int triangle, int side, int neighbour) {
-  const int from = mesh.triangles[triangle][side], to = mesh.triangles[triangle][(side + 1) % 3];
-  for (int k = 0; k < 3; ++k) {
-    if (mesh.triangles[neighbour][k] == from && mesh.triangles[neighbour][(k + 1) % 3] == to) return true;
-  }
-  return false;
-}
-
 void turn_over(Vector3i& triangle) { std::swap(triangle[1], triangle[2]); }
 
-/// Winds each connected part consistently; returns the part of every triangle.
-std::vector<int> wind_parts(TriangleMesh& mesh, int& parts) {
-  Neighbours across = neighbours_of(mesh);
+[[noreturn]] void refuse_winding(const TriangleMesh& mesh, std::size_t triangle) {
+  throw Error("mesh '" + mesh.name + "' has no inside: its triangles cannot be wound consistently at the edge from " +
+              describe(mesh.corner(triangle, 0)) + " to " + describe(mesh.corner(triangle, 1)));
+}
+
+/// Whether going round on the surface comes to a triangle's other side, as on a Möbius strip.
+void check_two_sides(const TriangleMesh& mesh, const Shells& shells) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      if (across[t][k] < 0) {
-        throw Error("mesh '" + mesh.name + "' is not closed: only one triangle has the edge from " + describe(mesh.corner(t, k)) + " to " +
-                    describe(mesh.corner(t, (k + 1) % 3)) + "; a body must enclose its volume");
-      }
-    }
+    if (shells.of_side[2 * t] == shells.of_side[2 * t + 1]) refuse_winding(mesh, t);
   }
-  std::vector<int> part(mesh.triangles.size(), -1), queue;
-  parts = 0;
-  for (std::size_t first = 0; first < mesh.triangles.size(); ++first) {
-    if (part[first] >= 0) continue;
-    queue.assign(1, static_cast<int>(first));
-    part[first] = parts;
-    while (!queue.empty()) {
-      const int t = queue.back();
-      queue.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const int other = across[t][k];
-        const bool against = wound_against(mesh, t, k, other);
-        if (part[other] < 0) {
-          part[other] = parts;
-          if (against) {
-            turn_over(mesh.triangles[other]);  // corners 0 2 1: edges 0-2, 2-1, 1-0
-            std::swap(across[other][0], across[other][2]);
-          }
-          queue.push_back(other);
-        } else if (against) {
-          throw Error("mesh '" + mesh.name + "' has no inside: its triangles cannot be wound consistently at the edge from " +
-                      describe(mesh.corner(t, k)) + " to " + describe(mesh.corner(t, (k + 1) % 3)));
-        }
-      }
-    }
-    ++parts;
+}
+
+/// What the shells of a mesh enclose.
+struct Solids {
+  std::vector<bool> solid;  ///< of each shell: the space that it is seen from is inside the body
+  std::vector<int> outer;   ///< of each component: its shell that is seen from outside
+};
+
+/// Each component is solid inside its outer shell, but for spaces that its triangles all face, wound as they are on the outer shell: gaps
+/// between solids.
+Solids find_solids(const TriangleMesh& mesh, const Shells& shells, double size) {
+  Solids solids;
+  solids.outer.assign(shells.components, -1);
+  const int count = static_cast<int>(shells.component.size());
+  for (int s = 0; s < count; ++s) {
+    int& outer = solids.outer[shells.component[s]];
+    if (outer < 0 || shells.volume[s] > shells.volume[outer]) outer = s;
   }
-  return part;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int outer = solids.outer[shells.component[shells.of_side[2 * t]]];
+    if (shells.volume[outer] > 1e-12 * size * size * size) continue;
+    throw Error("mesh '" + mesh.name + "' has a part without volume about " + describe(mesh.corner(t, 0)) +
+                "; a body must enclose a volume");
+  }
+  for (int s = 0; s < count; ++s) {
+    const int outer = solids.outer[shells.component[s]];
+    const bool inside_out = shells.backward[outer] > shells.forward[outer];
+    const double against = inside_out ? shells.forward[s] : shells.backward[s];
+    solids.solid.push_back(s != outer && against > 0);
+  }
+  return solids;
+}
+
+/// Leaves only what parts a body from the space outside, wound outwards; returns the component of each triangle.
+std::vector<int> keep_outsides(TriangleMesh& mesh, const Shells& shells, const Solids& solids) {
+  std::vector<int> component;
+  std::vector<Vector3i> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int front = shells.of_side[2 * t], back = shells.of_side[2 * t + 1];
+    if (solids.solid[front] && solids.solid[back]) continue;  // parts two solids
+    if (!solids.solid[front] && !solids.solid[back]) refuse_winding(mesh, t);
+    kept.push_back(mesh.triangles[t]);
+    if (solids.solid[front]) turn_over(kept.back());
+    component.push_back(shells.component[front]);
+  }
+  mesh.triangles = std::move(kept);
+  return component;
 }
 
 /// Each part as a mesh of its own.
@@ -88,28 +98,29 @@ bool encloses(const Box& outer, const Box& inner) {
   return (outer.min.array() <= inner.min.array()).all() && (outer.max.array() >= inner.max.array()).all();
 }
 
-/// Outer parts are wound outwards, cavities (parts inside an odd number of others) inwards.
-void orient_parts(TriangleMesh& mesh, const std::vector<int>& part, int parts, double size) {
-  std::vector<TriangleMesh> pieces = separate(mesh, part, parts);
+/// Whether a part lies in another wholly; one that crosses or touches it from within is a solid of its own. By up to a hundred corners.
+bool lies_in(const TriangleMesh& inner, const TriangleMesh& outer) {
+  const std::size_t step = std::max<std::size_t>(1, inner.vertices.size() / 100);
+  for (std::size_t v = 0; v < inner.vertices.size(); v += step)
+    if (winding_number(outer, inner.vertices[v]) < 0.9) return false;
+  return true;
+}
+
+/// Parts inside an odd number of others are cavities, and are turned inwards.
+void turn_cavities(TriangleMesh& mesh, const std::vector<int>& part, int parts) {
+  if (parts < 2) return;
+  const std::vector<TriangleMesh> pieces = separate(mesh, part, parts);
   std::vector<Box> boxes;
-  std::vector<bool> outward, cavity(parts, false);
-  for (TriangleMesh& piece : pieces) {
-    boxes.push_back(piece.bounding_box());
-    const double volume = piece.signed_volume();
-    if (std::abs(volume) <= 1e-12 * size * size * size) {
-      throw Error("mesh '" + mesh.name + "' has a part without volume about " + describe(piece.corner(0, 0)) +
-                  "; a body must enclose a volume");
-    }
-    outward.push_back(volume > 0);
-    if (volume < 0) std::for_each(piece.triangles.begin(), piece.triangles.end(), turn_over);
-  }
+  std::vector<bool> cavity(parts, false);
+  boxes.reserve(pieces.size());
+  for (const TriangleMesh& piece : pieces) boxes.push_back(piece.bounding_box());
   for (int p = 0; p < parts; ++p) {
     for (int q = 0; q < parts; ++q) {
-      if (p != q && encloses(boxes[q], boxes[p]) && inside(pieces[q], pieces[p].corner(0, 0))) cavity[p] = !cavity[p];
+      if (p != q && encloses(boxes[q], boxes[p]) && lies_in(pieces[p], pieces[q])) cavity[p] = !cavity[p];
     }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (outward[part[t]] == cavity[part[t]]) turn_over(mesh.triangles[t]);
+    if (cavity[part[t]]) turn_over(mesh.triangles[t]);
   }
 }
 
@@ -135,16 +146,17 @@ void check_surface(TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw Error("mesh '" + mesh.name + "' has no triangles");
   remove_degenerate_triangles(mesh);
   if (mesh.triangles.empty()) throw Error("mesh '" + mesh.name + "' has only triangles of zero area");
-  neighbours_of(mesh);
 }
 
 void check_closed(TriangleMesh& mesh) {
   check_surface(mesh);
   const Box box = mesh.bounding_box();
   const double size = (box.max - box.min).norm();
-  int parts = 0;
-  const std::vector<int> part = wind_parts(mesh, parts);
-  orient_parts(mesh, part, parts, size);
+  if (mesh.signed_volume() < 0) std::for_each(mesh.triangles.begin(), mesh.triangles.end(), turn_over);
+  const Shells shells = find_shells(mesh);
+  check_two_sides(mesh, shells);
+  const std::vector<int> component = keep_outsides(mesh, shells, find_solids(mesh, shells, size));
+  turn_cavities(mesh, component, shells.components);
   if (mesh.signed_volume() <= 0) throw Error("mesh '" + mesh.name + "' encloses no volume: its parts cancel each other");
   refuse_inverted_parts(mesh, size);
 }

@@ -12,6 +12,7 @@
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "shape_mesh.h"
+#include "stl_reader.h"
 #include "wavetank/common/error.h"
 #include "wavetank/geometry/mesh.h"
 #include "wavetank/scene/file_path.h"
@@ -27,6 +28,14 @@ Eigen::Matrix4d to_eigen(const aiMatrix4x4& m) {
   return result;
 }
 
+/// Of the vertices from `first` on.
+void check_finite(const TriangleMesh& mesh, std::size_t first, const std::string& path) {
+  for (std::size_t v = first; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite())
+      throw Error("mesh file '" + path + "': vertex " + std::to_string(v) + " is not a finite number: " + describe(mesh.vertices[v]));
+  }
+}
+
 void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, const std::string& path, TriangleMesh& mesh) {
   const Eigen::Matrix4d transform = parent * to_eigen(node.mTransformation);
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -34,13 +43,9 @@ void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& p
     const int first = static_cast<int>(mesh.vertices.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D& p = part.mVertices[v];
-      const Vector3d vertex = (transform * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>();
-      if (!vertex.allFinite()) {
-        throw Error("mesh file '" + path + "': vertex " + std::to_string(first + static_cast<int>(v)) +
-                    " is not a finite number: " + describe(vertex));
-      }
-      mesh.vertices.push_back(vertex);
+      mesh.vertices.emplace_back((transform * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>());
     }
+    check_finite(mesh, first, path);
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       std::vector<Vector3d> corners;
@@ -98,9 +103,8 @@ void merge_vertices(TriangleMesh& mesh, double tolerance) {
   mesh.vertices = std::move(kept);
 }
 
-TriangleMesh read_file(const std::string& path) {
-  check_file("mesh", path);
-
+/// Through assimp.
+TriangleMesh import_file(const std::string& path) {
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshFileAccess);  // the importer owns it
   // Collada: the file's axes stay as they are written, as in rviz; its unit is applied, so that coordinates are metres.
@@ -109,8 +113,15 @@ TriangleMesh read_file(const std::string& path) {
   if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
 
   TriangleMesh mesh;
-  mesh.name = std::filesystem::path(path).filename().string();
   add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), path, mesh);
+  return mesh;
+}
+
+TriangleMesh read_file(const std::string& path) {
+  check_file("mesh", path);
+  TriangleMesh mesh = is_stl(path) ? read_stl(path) : import_file(path);  // assimp takes few of the dialects of STL
+  mesh.name = std::filesystem::path(path).filename().string();
+  check_finite(mesh, 0, path);
   if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has no triangles");
 
   const Box box = mesh.bounding_box();
@@ -127,8 +138,11 @@ void place(TriangleMesh& mesh, const MeshSource& source, const std::string& what
        Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX()))
           .toRotationMatrix();
   for (Vector3d& vertex : mesh.vertices) {
-    vertex = rotation * (source.scale * vertex) + source.translation;
+    vertex = rotation * source.scale.cwiseProduct(vertex) + source.translation;
     if (!vertex.allFinite()) throw Error(what + ": its scale, rotation or translation makes vertices that are not finite numbers");
+  }
+  if (source.scale.prod() < 0) {  // mirrored: what was wound outwards is to stay so
+    for (Vector3i& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }
 }
 

@@ -5,33 +5,10 @@
 #include <array>
 #include <map>
 #include <set>
-
-#include "polygon.h"
-#include "wavetank/common/error.h"
+#include <tuple>
 
 namespace wavetank {
 namespace {
-
-struct HalfEdge {
-  int low, high;  // vertices, sorted
-  int triangle, side;
-  bool operator<(const HalfEdge& other) const {
-    return std::tie(low, high, triangle, side) < std::tie(other.low, other.high, other.triangle, other.side);
-  }
-};
-
-std::vector<HalfEdge> sorted_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), t, k});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
 
 /// Twice the area is below this part of the squared longest edge: a height of 1e-9 of the length.
 constexpr double flatness = 1e-9;
@@ -64,16 +41,27 @@ int middle_corner(const TriangleMesh& mesh, const Vector3i& t) {
 
 }  // namespace
 
+std::vector<HalfEdge> sorted_edges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), t, k});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
+  });
+  return edges;
+}
+
 Neighbours neighbours_of(const TriangleMesh& mesh) {
   Neighbours result(mesh.triangles.size(), Vector3i(-1, -1, -1));
   const std::vector<HalfEdge> edges = sorted_edges(mesh);
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i + 1;
     while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-    if (end - i > 2) {
-      throw Error("mesh '" + mesh.name + "' is not a manifold: " + std::to_string(end - i) + " triangles share the edge from " +
-                  describe(mesh.vertices[edges[i].low]) + " to " + describe(mesh.vertices[edges[i].high]) + "; at most two may");
-    }
     if (end - i == 2) {
       result[edges[i].triangle][edges[i].side] = edges[i + 1].triangle;
       result[edges[i + 1].triangle][edges[i + 1].side] = edges[i].triangle;

@@ -6,10 +6,19 @@
 
 namespace wavetank {
 
-/// For every triangle the triangle across each of its edges (edge k runs from corner k to corner k + 1); −1 where there is none.
+/// A triangle's edge, from its corner `side` to the next, by its vertices in ascending order.
+struct HalfEdge {
+  int low, high;
+  int triangle, side;
+};
+
+/// Those of one edge behind each other, by triangle.
+std::vector<HalfEdge> sorted_edges(const TriangleMesh& mesh);
+
+/// For every triangle the triangle across each of its edges (edge k runs from corner k to corner k + 1); −1 where there is none or more
+/// than one, as where a baffle stands on a floor.
 using Neighbours = std::vector<Vector3i>;
 
-/// Throws Error where more than two triangles share an edge.
 Neighbours neighbours_of(const TriangleMesh& mesh);
 
 /// Removes triangles without area. Where one has three distinct corners in a line, the triangle on its long side is split at the middle

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "polygon.h"
+#include "slow_work.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -81,9 +82,12 @@ void OpenSpace::flood(const std::vector<Vector3d>& from, double top) {
       enter(point, voxel);
     }
   }
+  SlowWork work("finding the space that the water can reach");
+  std::size_t done = 0;
   while (!queue.empty()) {  // breadth first: an escape is found on the shortest way out
     next.clear();
     for (const std::size_t i : queue) {
+      work.tell(++done, reached_.size());
       const int voxel[3] = {static_cast<int>(i % count_[0]), static_cast<int>(i / count_[0] % count_[1]),
                             static_cast<int>(i / count_[0] / count_[1])};
       const Vector3d position = centre(voxel);

@@ -48,14 +48,18 @@ Outline join(const std::vector<Segment>& segments, const std::map<Cut, Vector3d>
     at[segments[s].to].push_back(s);
   }
   std::vector<char> used(segments.size(), 0);
-  const auto next_at = [&](const Cut& cut) {
+  // Where more than two segments meet, a line goes on in one of its own sense: so outlines of solids that touch keep their hand.
+  const auto next_at = [&](const Cut& cut, bool onwards) {
+    int found = -1;
     for (const int s : at[cut]) {
-      if (!used[s]) return s;
+      if (used[s]) continue;
+      found = s;
+      if ((onwards ? segments[s].from : segments[s].to) == cut) break;
     }
-    return -1;
+    return found;
   };
-  const auto follow = [&](Cut end, std::vector<Cut>& line) {
-    for (int s = next_at(end); s >= 0; s = next_at(end)) {
+  const auto follow = [&](Cut end, bool onwards, std::vector<Cut>& line) {
+    for (int s = next_at(end, onwards); s >= 0; s = next_at(end, onwards)) {
       used[s] = 1;
       end = segments[s].from == end ? segments[s].to : segments[s].from;
       line.push_back(end);
@@ -66,8 +70,8 @@ Outline join(const std::vector<Segment>& segments, const std::map<Cut, Vector3d>
     if (used[s]) continue;
     used[s] = 1;
     std::vector<Cut> line = {segments[s].from, segments[s].to}, before;
-    follow(segments[s].to, line);
-    if (line.back() != line.front()) follow(segments[s].from, before);
+    follow(segments[s].to, true, line);
+    if (line.back() != line.front()) follow(segments[s].from, false, before);
     std::reverse(before.begin(), before.end());
     before.insert(before.end(), line.begin(), line.end());
     Polyline polyline;

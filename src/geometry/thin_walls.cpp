@@ -21,7 +21,7 @@ class Looker {
         dimensions_(dimensions),
         thickness_((1 - rounding) * thickness),
         tolerance_(1e-4 * layout.spacing) {
-    if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), thickness, tolerance_);
+    if (!facets_.empty()) grid_.emplace(as_triangles(layout.facets, dimensions), tolerance_);
     for (const Facet& facet : facets_) {
       Box box{facet.corners[0], facet.corners[0]};
       for (const Vector3d& corner : facet.corners) {
@@ -30,6 +30,17 @@ class Looker {
       }
       boxes_.push_back(box);
     }
+  }
+
+  /// Facets that meet the box about the points, give or take a tolerance; ascending.
+  std::vector<int> about(const Vector3d* begin, const Vector3d* end, double tolerance) const {
+    if (!grid_) return {};
+    Box box{*begin, *begin};
+    for (const Vector3d* point = begin; point != end; ++point) {
+      box.min = box.min.cwiseMin(*point);
+      box.max = box.max.cwiseMax(*point);
+    }
+    return grid_->overlapping({box.min.array() - tolerance, box.max.array() + tolerance});
   }
 
   /// The wall behind a place.
@@ -54,12 +65,6 @@ class Looker {
       if (covers(facet, hit)) least = Behind{std::max(depth, 0.0), f};
     }
     return least;
-  }
-
-  /// Facets whose bounding boxes come near to a place.
-  std::vector<int> near(const Vector3d& place, double distance) const {
-    const Vector3d margin = Vector3d::Constant(distance);
-    return grid_ ? grid_->overlapping({place - margin, place + margin}) : std::vector<int>();
   }
 
  private:
@@ -91,9 +96,11 @@ class Looker {
   std::optional<TriangleGrid> grid_;
 };
 
-/// Points all over a facet, a few an edge.
-std::vector<Vector3d> places_on(const Facet& facet, int dimensions) {
-  constexpr int fineness = 6;
+/// Points all over a facet, a few an edge; fewer on one that is small beside the thickness.
+std::vector<Vector3d> places_on(const Facet& facet, int dimensions, double thickness) {
+  double longest = 0;
+  for (int k = 0; k < dimensions; ++k) longest = std::max(longest, (facet.corners[(k + 1) % dimensions] - facet.corners[k]).norm());
+  const int fineness = static_cast<int>(std::ceil(6 * std::min(1.0, longest / thickness)));
   std::vector<Vector3d> places;
   for (int i = 0; i < fineness; ++i) {
     if (dimensions == 2) {
@@ -193,7 +200,7 @@ class EdgeFinder {
     const Facet& facet = facets_[f];
     const FacetEdge edge(facet, k, dimensions_);
     EdgeKind found = EdgeKind::outer;
-    for (const int g : looker_.near(edge.middle, tolerance_)) {
+    for (const int g : looker_.about(&edge.middle, &edge.middle + 1, tolerance_)) {
       const Facet& other = facets_[g];
       if (g == f || distance(other, edge.middle) > tolerance_) continue;
       if (other.owner != facet.owner) {
@@ -243,7 +250,7 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   const Looker looker(layout, dimensions, thickness);
   for (const Facet& facet : layout.facets) {
     Thin thin = Thin::no;
-    for (const Vector3d& place : places_on(facet, dimensions)) {
+    for (const Vector3d& place : places_on(facet, dimensions, thickness)) {
       const std::optional<Looker::Behind> found = looker.look(place, facet.normal, facet.owner);
       if (!found) continue;
       thin = Thin::yes;
@@ -254,13 +261,16 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
   const double tolerance = 1e-3 * layout.spacing;
   const std::vector<Thin> faces = parts.facets;
   if (parts.thinnest) {
-    for (std::size_t r = 0; r < faces.size(); ++r)
-      for (std::size_t f = 0; f < faces.size() && parts.facets[r] == Thin::no; ++f)
-        if (faces[f] == Thin::yes && is_rim(layout.facets[r], layout.facets[f], thickness, tolerance)) parts.facets[r] = Thin::rim;
+    for (std::size_t r = 0; r < faces.size(); ++r) {
+      const Facet& facet = layout.facets[r];
+      if (faces[r] != Thin::no) continue;
+      for (const int f : looker.about(facet.corners, facet.corners + dimensions, tolerance))
+        if (faces[f] == Thin::yes && is_rim(facet, layout.facets[f], thickness, tolerance)) parts.facets[r] = Thin::rim;
+    }
     parts.free_edges = EdgeFinder(layout, parts.facets, looker, dimensions).find();
   }
   const auto on_rim = [&](const Vector3d& centre, const Vector3d& normal, int owner) {
-    for (const int f : looker.near(centre, tolerance)) {
+    for (const int f : looker.about(&centre, &centre + 1, tolerance)) {
       const Facet& facet = layout.facets[f];
       if (parts.facets[f] == Thin::rim && facet.owner == owner && facet.normal.dot(normal) > 0.99) return true;
     }

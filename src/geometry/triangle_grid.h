@@ -16,30 +16,37 @@ struct WallTriangle {
 /// Which walls a query is about.
 enum class Walls { all, tank, bodies };
 
-/// Finds the triangles near a place: a uniform grid over all walls, made once, that never changes.
+/// Finds the triangles near a place: a tree of boxes over all walls, made once, that never changes. What it costs to ask depends little on
+/// how fine the triangles are or how far they reach.
 class TriangleGrid {
  public:
   /// `tolerance`: a segment that comes nearer to a triangle than this touches it, and touching is crossing; so hairline gaps between CAD
   /// faces are shut.
-  TriangleGrid(const std::vector<WallTriangle>& triangles, double cell, double tolerance);
+  TriangleGrid(const std::vector<WallTriangle>& triangles, double tolerance);
 
-  /// Whether the straight way between two near points (a few cells) meets a wall.
+  /// Whether the straight way between two points meets a wall.
   bool crosses(const Vector3d& from, const Vector3d& to, Walls walls = Walls::all) const;
 
-  /// The fraction of the way at which it first meets a wall.
-  std::optional<double> first_crossing(const Vector3d& from, const Vector3d& to) const;
+  struct Crossing {
+    double fraction = 0;  ///< of the way
+    int triangle = 0;
+  };
+  /// Where the way first meets a wall.
+  std::optional<Crossing> first_crossing(const Vector3d& from, const Vector3d& to) const;
 
   struct Nearest {
     Vector3d point;
     double distance = 0;
+    int triangle = 0;
   };
-  /// The nearest wall point, if one is nearer than `radius` (a few cells at most).
+  /// The nearest wall point, if one is nearer than `radius`.
   std::optional<Nearest> nearest(const Vector3d& point, double radius) const;
 
   /// Indices of triangles whose bounding boxes meet the box, each once, ascending.
   std::vector<int> overlapping(const Box& box) const;
 
   const std::vector<WallTriangle>& triangles() const { return triangles_; }
+  const Vector3d& normal(int triangle) const { return prepared_[triangle].normal; }
   double tolerance() const { return tolerance_; }
 
  private:
@@ -50,19 +57,22 @@ class TriangleGrid {
     Box bounds;
   };
   bool meets(const Prepared& triangle, const Vector3d& from, const Vector3d& to, double& entry) const;
+  /// Of the tree: about the triangles order_[first] to order_[last - 1]. Two children follow each other; a leaf has none.
+  struct Node {
+    Box bounds;
+    int first = 0, last = 0;
+    int children = -1;
+  };
+  void split(int node);
+  /// Calls visit(triangle) for those whose bounds meet the box, until it returns true.
   template <class Visit>
-  void visit_cells(const Vector3d& low, const Vector3d& high, Visit visit) const;
-  /// Calls visit(cell) for the cells that the triangle may pass through.
-  template <class Visit>
-  void visit_triangle(const Prepared& triangle, Visit visit) const;
+  void visit_triangles(const Vector3d& low, const Vector3d& high, Visit visit) const;
 
   std::vector<WallTriangle> triangles_;
   std::vector<Prepared> prepared_;
   double tolerance_;
-  Vector3d origin_;
-  double cell_;
-  int count_[3];
-  std::vector<int> start_, content_;
+  std::vector<Node> nodes_;
+  std::vector<int> order_;
 };
 
 }  // namespace wavetank

@@ -6,6 +6,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "slow_work.h"
+
 namespace wavetank {
 namespace {
 
@@ -275,7 +277,9 @@ std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner,
                                double spacing, int dimensions) {
   const Facer facer(open, grid, spacing);
   std::vector<Facet> facets;
+  SlowWork work("finding the wet facets of a wall");
   for (const WallPatch& patch : patches) {
+    work.tell(&patch - patches.data(), patches.size());
     for (const Polygon& piece : patch.pieces) {
       const Vector3d area = vector_area(piece);
       if (area.norm() <= 0) continue;
@@ -333,7 +337,9 @@ std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int o
   std::vector<Unfinished> elements;
   Vector3d origin = Vector3d::Zero();
   if (!patches.empty()) origin = patches.front().pieces.front().front();
+  SlowWork work("finding the wet elements of a wall");
   for (const WallPatch& patch : patches) {
+    work.tell(&patch - patches.data(), patches.size());
     for (const double sign : {1.0, -1.0}) {
       const Facing facing = facer.face(patch, sign);
       if (facing.area > 1e-9 * spacing * spacing) {

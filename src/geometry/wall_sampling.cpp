@@ -41,14 +41,38 @@ Vector3d in_space(const PlanarRegion& region, const Eigen::Vector2d& p) {
   return region.origin + p.x() * region.along + p.y() * region.across;
 }
 
-void add_rectangle(const PlanarRegion& region, double spacing, std::vector<WallPatch>& patches) {
+/// Cells low to high of a grid.
+struct CellRange {
+  int low[2], high[2];
+  bool empty() const { return low[0] > high[0] || low[1] > high[1]; }
+};
+
+/// The cells that may lie within the box.
+CellRange cells_within(const PlanarRegion& region, const CellGrid& grid, const std::optional<Box>& within) {
+  CellRange range{{0, 0}, {grid.count[0] - 1, grid.count[1] - 1}};
+  if (!within) return range;
+  const Vector3d axes[2] = {region.along, region.across};
+  const Vector3d middle = 0.5 * (within->min + within->max) - region.origin, half = 0.5 * (within->max - within->min);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double centre = axes[axis].dot(middle), reach = axes[axis].cwiseAbs().dot(half);
+    const double low = (centre - reach - grid.min[axis]) / grid.side[axis], high = (centre + reach - grid.min[axis]) / grid.side[axis];
+    range.low[axis] = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(grid.count[axis])));
+    range.high[axis] = static_cast<int>(std::clamp(std::floor(high), -1.0, grid.count[axis] - 1.0));
+  }
+  const Vector3d normal = region.along.cross(region.across);
+  if (std::abs(normal.dot(middle)) > normal.cwiseAbs().dot(half)) range.high[0] = -1;  // its plane passes by
+  return range;
+}
+
+void add_rectangle(const PlanarRegion& region, double spacing, const std::optional<Box>& within, std::vector<WallPatch>& patches) {
   const CellGrid grid = lay_grid(region, spacing);
+  const CellRange range = cells_within(region, grid, within);
   const Eigen::Vector2d size = region.max - region.min;
   const auto corner = [&](int i, int j) {
     return in_space(region, {grid.min.x() + size.x() * i / grid.count[0], grid.min.y() + size.y() * j / grid.count[1]});
   };
-  for (int j = 0; j < grid.count[1]; ++j) {
-    for (int i = 0; i < grid.count[0]; ++i) {
+  for (int j = range.low[1]; j <= range.high[1]; ++j) {
+    for (int i = range.low[0]; i <= range.high[0]; ++i) {
       patches.push_back({{{corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}},
                          region.along,
                          region.area / (size.x() * size.y()),
@@ -65,20 +89,34 @@ double area_of(const std::vector<Polygon>& pieces) {
   return area;
 }
 
+/// What of a polygon lies in the range's cells.
+Polygon part_in(Polygon polygon, const CellGrid& grid, const CellRange& range, double tolerance) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector3d along = Vector3d::Unit(axis);
+    if (range.low[axis] > 0) polygon = part_below(polygon, -along, -(grid.min[axis] + range.low[axis] * grid.side[axis]), tolerance);
+    if (range.high[axis] + 1 < grid.count[axis])
+      polygon = part_below(polygon, along, grid.min[axis] + (range.high[axis] + 1) * grid.side[axis], tolerance);
+  }
+  return polygon;
+}
+
 /// Pieces of the region's triangles by grid cell.
-std::map<int, std::vector<Polygon>> clip_to_cells(const PlanarRegion& region, const CellGrid& grid) {
-  std::map<int, std::vector<Polygon>> cells;
+std::map<long, std::vector<Polygon>> clip_to_cells(const PlanarRegion& region, const CellGrid& grid, const CellRange& within) {
+  std::map<long, std::vector<Polygon>> cells;
   const double tolerance = 1e-9 * grid.side.maxCoeff();
   for (const FlatTriangle& t : region.triangles) {
     const auto range = [&](int axis, int& low, int& high) {
       const double least = std::min({t[0][axis], t[1][axis], t[2][axis]}), most = std::max({t[0][axis], t[1][axis], t[2][axis]});
       low = std::clamp(static_cast<int>(std::floor((least - grid.min[axis]) / grid.side[axis] + 1e-9)), 0, grid.count[axis] - 1);
       high = std::clamp(static_cast<int>(std::floor((most - grid.min[axis]) / grid.side[axis] - 1e-9)), low, grid.count[axis] - 1);
+      low = std::max(low, within.low[axis]);
+      high = std::min(high, within.high[axis]);
     };
     int low[2], high[2];
     range(1, low[1], high[1]);
     Polygon rest;
     for (const Eigen::Vector2d& p : t) rest.emplace_back(p.x(), p.y(), 0.0);
+    rest = part_in(std::move(rest), grid, within, tolerance);
     // Rows are cut off one after the other, and cells off each row: what is left over never gets lost at the last cut.
     for (int j = low[1]; j <= high[1] && !rest.empty(); ++j) {
       const double top = grid.min.y() + (j + 1) * grid.side.y();
@@ -92,7 +130,7 @@ std::map<int, std::vector<Polygon>> clip_to_cells(const PlanarRegion& region, co
         if (piece.size() < 3) continue;
         Polygon placed;
         for (const Vector3d& p : piece) placed.push_back(in_space(region, {p.x(), p.y()}));
-        cells[j * grid.count[0] + i].push_back(placed);
+        cells[static_cast<long>(j) * grid.count[0] + i].push_back(placed);
       }
     }
   }
@@ -100,15 +138,15 @@ std::map<int, std::vector<Polygon>> clip_to_cells(const PlanarRegion& region, co
 }
 
 /// Cells of which little is left join the fullest of their four neighbours.
-void join_slivers(std::map<int, std::vector<Polygon>>& cells, const CellGrid& grid) {
-  std::map<int, double> area;
+void join_slivers(std::map<long, std::vector<Polygon>>& cells, const CellGrid& grid) {
+  std::map<long, double> area;
   for (const auto& [cell, pieces] : cells) area[cell] = area_of(pieces);
   const double least = sliver * grid.side.x() * grid.side.y();
   for (const auto& [cell, own] : area) {
     if (own >= least) continue;
-    const int i = cell % grid.count[0], j = cell / grid.count[0];
-    int best = -1;
-    const auto consider = [&](bool exists, int other) {
+    const long i = cell % grid.count[0], j = cell / grid.count[0];
+    long best = -1;
+    const auto consider = [&](bool exists, long other) {
       if (exists && area.count(other) && area[other] >= least && (best < 0 || area[other] > area[best])) best = other;
     };
     consider(i > 0, cell - 1);
@@ -122,19 +160,23 @@ void join_slivers(std::map<int, std::vector<Polygon>>& cells, const CellGrid& gr
   }
 }
 
-void add_clipped(const PlanarRegion& region, double spacing, std::vector<WallPatch>& patches) {
+void add_clipped(const PlanarRegion& region, double spacing, const std::optional<Box>& within, std::vector<WallPatch>& patches) {
   CellGrid grid = lay_grid(region, spacing);
   const Eigen::Vector2d size = region.max - region.min;
   if (region.area <= spacing * spacing && size.maxCoeff() <= 2 * spacing) {  // a facet smaller than a cell stays whole
     grid.count[0] = grid.count[1] = 1;
     grid.side = size;
   }
-  std::map<int, std::vector<Polygon>> cells = clip_to_cells(region, grid);
+  const CellRange range = cells_within(region, grid, within);
+  if (range.empty()) return;
+  const bool whole = range.low[0] == 0 && range.low[1] == 0 && range.high[0] + 1 == grid.count[0] && range.high[1] + 1 == grid.count[1];
+  std::map<long, std::vector<Polygon>> cells = clip_to_cells(region, grid, range);
   join_slivers(cells, grid);
   double sampled = 0;
   for (const auto& [cell, pieces] : cells) sampled += area_of(pieces);
+  const double factor = whole ? region.area / sampled : 1.0;
   for (auto& [cell, pieces] : cells)
-    patches.push_back({std::move(pieces), region.along, region.area / sampled, Vector3d::Zero(), Vector3d::Zero(), region.curved});
+    patches.push_back({std::move(pieces), region.along, factor, Vector3d::Zero(), Vector3d::Zero(), region.curved});
 }
 
 double turn(const Vector3d& before, const Vector3d& after) {
@@ -204,21 +246,37 @@ std::vector<FlatTriangle> in_few_triangles(const PlanarRegion& region) {
   return std::abs(area - region.area) <= 1e-6 * region.area ? result : region.triangles;
 }
 
+/// The pieces low to high of a straight run of `cells` that may lie within the box.
+void pieces_within(const Vector3d& from, const Vector3d& way, const std::optional<Box>& within, int cells, int& low, int& high) {
+  low = 0;
+  high = cells - 1;
+  if (!within) return;
+  double enter = 0, leave = 1;
+  for (const int axis : {0, 2}) {
+    if (way[axis] == 0) continue;
+    const double a = (within->min[axis] - from[axis]) / way[axis], b = (within->max[axis] - from[axis]) / way[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  low = static_cast<int>(std::min(std::floor(enter * cells), static_cast<double>(cells)));
+  high = static_cast<int>(std::min(std::floor(leave * cells), cells - 1.0));
+}
+
 }  // namespace
 
-std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing) {
+std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing, const std::optional<Box>& within) {
   std::vector<WallPatch> patches;
   for (const PlanarRegion& region : planar_regions(mesh)) {
     if (region.is_rectangle()) {
-      add_rectangle(region, spacing, patches);
+      add_rectangle(region, spacing, within, patches);
     } else {
-      add_clipped(region, spacing, patches);
+      add_clipped(region, spacing, within, patches);
     }
   }
   return patches;
 }
 
-std::vector<WallPatch> sample_outline(const Outline& outline, double spacing) {
+std::vector<WallPatch> sample_outline(const Outline& outline, double spacing, const std::optional<Box>& within) {
   const Vector3d half(0, 0.5 * spacing, 0);
   std::vector<WallPatch> patches;
   for (const Polyline& given : outline) {
@@ -233,7 +291,9 @@ std::vector<WallPatch> sample_outline(const Outline& outline, double spacing) {
       const Vector3d from = line.points[k], way = side(k);
       const bool curved = curved_at(k) || curved_at(k + 1);
       const int cells = cells_in(way.norm(), spacing);
-      for (int i = 0; i < cells; ++i) {
+      int low, high;
+      pieces_within(from, way, within, cells, low, high);
+      for (int i = low; i <= high; ++i) {
         const Vector3d a = from + way * i / cells, b = from + way * (i + 1) / cells;
         patches.push_back({{{a - half, b - half, b + half, a + half}}, way.normalized(), 1.0, Vector3d::Zero(), Vector3d::Zero(), curved});
       }

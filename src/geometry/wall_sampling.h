@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "outline.h"
@@ -19,11 +20,12 @@ struct WallPatch {
 };
 
 /// Cuts a surface into patches of about the spacing. Rectangles become regular grids of equal cells; other flat regions a square grid along
-/// their longest edge, clipped to the region; facets smaller than a cell stay whole. The patches' area is the mesh's.
-std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing);
+/// their longest edge, clipped to the region; facets smaller than a cell stay whole. The patches' area is the mesh's. With `within`,
+/// patches outside that box may be left out: a body may reach far out of its tank.
+std::vector<WallPatch> sample_mesh(const TriangleMesh& mesh, double spacing, const std::optional<Box>& within = {});
 
 /// The same in 2-D: straight runs become equal pieces. Each piece is a ribbon as wide as the spacing across the x–z plane.
-std::vector<WallPatch> sample_outline(const Outline& outline, double spacing);
+std::vector<WallPatch> sample_outline(const Outline& outline, double spacing, const std::optional<Box>& within = {});
 
 /// The surface's own triangles, uncut.
 std::vector<WallPatch> whole_facets(const TriangleMesh& mesh);

@@ -47,7 +47,9 @@ bool rviz_reads(const std::string& uri) {
 void place_resource(Marker& result, const MeshSource& source) {
   result.type = Marker::MESH_RESOURCE;
   result.mesh_resource = source.uri;
-  result.scale.x = result.scale.y = result.scale.z = source.scale;
+  result.scale.x = source.scale.x();
+  result.scale.y = source.scale.y();
+  result.scale.z = source.scale.z();
   result.pose.position = point_message(source.translation);
   const Eigen::Quaterniond turn = Eigen::AngleAxisd(source.rotation.z(), Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(source.rotation.y(), Vector3d::UnitY()) *
@@ -59,7 +61,8 @@ void place_resource(Marker& result, const MeshSource& source) {
 Marker surface_marker(const Case& checked, const std::string& group, int id, const TriangleMesh& mesh, const MeshSource* source,
                       const std_msgs::ColorRGBA& shade) {
   Marker result = marker(checked, group, id, Marker::TRIANGLE_LIST, shade);
-  if (source != nullptr && rviz_reads(source->uri)) {
+  const bool mirrored = source != nullptr && (source->scale.array() < 0).any();  // which rviz would show inside out
+  if (source != nullptr && !mirrored && rviz_reads(source->uri)) {
     place_resource(result, *source);
     return result;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "urdf_text.h"
 #include "values.h"
@@ -24,22 +25,29 @@ std::string length_text(double length, const std::string& name, const std::strin
   return number_text(length);
 }
 
-MeshSource mesh_file(const urdf::Mesh& mesh, const std::string& what) {
-  if (mesh.filename.rfind("package://", 0) != 0 && mesh.filename.rfind("file://", 0) != 0)
-    throw Error(what + " has the mesh '" + mesh.filename + "'; it must be given as package://PACKAGE/FILE or file:///FILE");
-  const urdf::Vector3& scale = mesh.scale;
-  if (!(scale.x > 0) || !std::isfinite(scale.x) || scale.x != scale.y || scale.x != scale.z) {
-    throw Error(what + " has a mesh of scale " + number_text(scale.x) + " " + number_text(scale.y) + " " + number_text(scale.z) +
-                "; it must be the same in all directions and greater than 0");
-  }
+/// A name that is a path is relative to the robot's file.
+std::string mesh_name(const std::string& name, const std::string& directory, const std::string& what) {
+  if (name.empty()) throw Error(what + " has a mesh without a file name");
+  if (name.find("://") != std::string::npos || name.front() == '/') return name;
+  if (!directory.empty()) return (std::filesystem::path(directory) / name).lexically_normal().string();
+  throw Error(what + " has the mesh '" + name +
+              "', a relative path, but the robot's description is no file that it could be relative to; give package://PACKAGE/FILE, "
+              "file:///FILE or an absolute path");
+}
+
+MeshSource mesh_file(const urdf::Mesh& mesh, const std::string& directory, const std::string& what) {
   MeshSource source;
-  source.uri = mesh.filename;
-  source.scale = scale.x;
+  source.uri = mesh_name(mesh.filename, directory, what);
+  source.scale = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
+  if (!source.scale.allFinite() || (source.scale.array() == 0).any()) {
+    throw Error(what + " has a mesh of scale " + number_text(mesh.scale.x) + " " + number_text(mesh.scale.y) + " " +
+                number_text(mesh.scale.z) + "; it must be three numbers other than 0 (m per unit of the file; a negative one mirrors)");
+  }
   return source;
 }
 
-MeshSource geometry_source(const urdf::Geometry& geometry, const std::string& what) {
-  if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) return mesh_file(*mesh, what);
+MeshSource geometry_source(const urdf::Geometry& geometry, const std::string& directory, const std::string& what) {
+  if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) return mesh_file(*mesh, directory, what);
   MeshSource source;
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
     source.uri = "shape://box?size=" + length_text(box->dim.x, "size along x", what) + "," + length_text(box->dim.y, "size along y", what) +
@@ -57,13 +65,13 @@ MeshSource geometry_source(const urdf::Geometry& geometry, const std::string& wh
 
 template <class Element>
 MeshSource only_shape(const std::vector<Element>& elements, const std::string& kind, const Eigen::Isometry3d& place,
-                      const std::string& what) {
+                      const std::string& directory, const std::string& what) {
   if (elements.size() > 1) {
     throw Error(
         what + " has " + std::to_string(elements.size()) + " " + kind +
         " elements, but a body here is one shape; make one mesh of them, or give each a link of its own and join them by fixed joints");
   }
-  MeshSource source = geometry_source(*elements.front()->geometry, what);
+  MeshSource source = geometry_source(*elements.front()->geometry, directory, what);
   const Eigen::Isometry3d at = place * transform_of(elements.front()->origin);
   source.translation = at.translation();
   source.rotation = angles_of(at.linear());
@@ -74,9 +82,9 @@ MeshSource only_shape(const std::vector<Element>& elements, const std::string& k
 
 bool has_shape(const urdf::Link& link) { return !link.collision_array.empty() || !link.visual_array.empty(); }
 
-MeshSource link_shape(const urdf::Link& link, const Eigen::Isometry3d& place, const std::string& what) {
-  if (!link.collision_array.empty()) return only_shape(link.collision_array, "collision", place, what);
-  return only_shape(link.visual_array, "visual", place, what);
+MeshSource link_shape(const urdf::Link& link, const Eigen::Isometry3d& place, const std::string& directory, const std::string& what) {
+  if (!link.collision_array.empty()) return only_shape(link.collision_array, "collision", place, directory, what);
+  return only_shape(link.visual_array, "visual", place, directory, what);
 }
 
 }  // namespace wavetank::scene

@@ -11,8 +11,9 @@ namespace wavetank::scene {
 
 bool has_shape(const urdf::Link& link);
 
-/// The one shape of a link that has one, what collides or else what is seen, with the link placed at `place`. Throws Error beginning with
-/// `what` for several, for a mesh that is not package:// or file://, and for one that is not scaled alike in all directions.
-MeshSource link_shape(const urdf::Link& link, const Eigen::Isometry3d& place, const std::string& what);
+/// The one shape of a link that has one, what collides or else what is seen, with the link placed at `place`. A mesh's file name is
+/// package://, file://, an absolute path, or one relative to `directory`, the robot's file's; empty if it has no file. Throws Error
+/// beginning with `what` for several shapes, for a relative path without a directory, and for a scale of 0.
+MeshSource link_shape(const urdf::Link& link, const Eigen::Isometry3d& place, const std::string& directory, const std::string& what);
 
 }  // namespace wavetank::scene

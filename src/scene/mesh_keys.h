@@ -16,7 +16,8 @@ void declare_mesh_keys(Declare declare) {
       "within 1.5 % of a sphere's radius and 0.6 % of a cylinder's; facets much smaller than Δx cost time. Within { } a shape needs "
       "quotes.")
       .required = true;
-  declare("scale", &MeshSource::scale, number(greater_than(0)), "", "Metres per unit of the mesh file.");
+  declare("scale", &MeshSource::scale, scale(), "",
+          "Metres per unit of the mesh file; three numbers along its axes stretch it, and a negative one of them mirrors it.");
   declare("translation", &MeshSource::translation, vector(), "m", "Moves the mesh; applied last.");
   declare("rotation", &MeshSource::rotation, angles(), "°", "Roll, pitch and yaw about the fixed axes x, y, z; applied after the scale.");
 }

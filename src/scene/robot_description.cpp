@@ -57,8 +57,8 @@ struct Group {
 
 class Robot {
  public:
-  Robot(const std::string& urdf, const std::string& source, const RobotCase& placement)
-      : source_(source), placement_(placement), links_(read_links(urdf, source)) {
+  Robot(const std::string& urdf, const std::string& source, const std::string& directory, const RobotCase& placement)
+      : source_(source), directory_(directory), placement_(placement), links_(read_links(urdf, source)) {
     for (const urdf::LinkConstSharedPtr& link : links_) place(*link);
     for (const urdf::LinkConstSharedPtr& link : links_) enter_group(link);
     for (const urdf::LinkConstSharedPtr& link : links_) weigh(*link);
@@ -138,7 +138,7 @@ class Robot {
   BodyCase body(const urdf::Link& link) const {
     BodyCase body;
     body.name = link.name;
-    body.shape = link_shape(link, place_of(link), named(link));
+    body.shape = link_shape(link, place_of(link), directory_, named(link));
     if (group_of(link).stands) return body;
     body.motion = Motion::free;
     const auto weighed = masses_.find(link.name);
@@ -229,6 +229,7 @@ class Robot {
   }
 
   const std::string& source_;
+  const std::string& directory_;
   const RobotCase& placement_;
   std::vector<urdf::LinkConstSharedPtr> links_;
   std::map<std::string, Isometry3d> places_;  ///< of links' frames, by name
@@ -239,8 +240,8 @@ class Robot {
 
 }  // namespace
 
-RobotParts robot_parts(const std::string& urdf, const std::string& source, const RobotCase& placement) {
-  return Robot(urdf, source, placement).parts();
+RobotParts robot_parts(const std::string& urdf, const std::string& source, const std::string& directory, const RobotCase& placement) {
+  return Robot(urdf, source, directory, placement).parts();
 }
 
 }  // namespace wavetank::scene

@@ -1,6 +1,7 @@
 #include "robots.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "robot_description.h"
 #include "text_file.h"
@@ -13,7 +14,8 @@ namespace {
 
 struct Description {
   std::string text;
-  std::string source;  ///< for messages
+  std::string source;     ///< for messages
+  std::string directory;  ///< of its file, if it has one
 };
 
 Description find_description(const RobotCase& robot, const Case& read, const Surroundings& surroundings) {
@@ -22,10 +24,11 @@ Description find_description(const RobotCase& robot, const Case& read, const Sur
       throw Error("only a node has ROS parameters such as '" + robot.parameter +
                   "'; give the robot's file as urdf instead, or run the case with wavetank_node");
     }
-    return {surroundings.parameter(robot.parameter), "parameter " + robot.parameter};
+    return {surroundings.parameter(robot.parameter), "parameter " + robot.parameter, ""};
   }
   const std::string path = file_path("robot description", robot.urdf, read.directory, surroundings.resolve);
-  return {read_text_file(path, "robot description", "a robot description is a URDF file"), path};
+  return {read_text_file(path, "robot description", "a robot description is a URDF file"), path,
+          std::filesystem::absolute(path).parent_path().string()};
 }
 
 template <class Named>
@@ -71,7 +74,7 @@ void build_robots(Case& read, const Setting& root, const Surroundings& surroundi
       const std::string path = join_path(join_path("robots", i), robot.urdf.empty() ? "parameter" : "urdf");
       throw Error(nearest_setting(root, path).place.describe() + ": " + path + ": " + error.what());
     }
-    add_parts(robot_parts(description.text, description.source, robot), description.source, read);
+    add_parts(robot_parts(description.text, description.source, description.directory, robot), description.source, read);
   }
   read.robots.clear();
 }

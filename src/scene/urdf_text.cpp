@@ -33,7 +33,9 @@ class Complaints : public console_bridge::OutputHandler {
 
 urdf::ModelInterfaceSharedPtr parse(const std::string& urdf, const std::string& source) {
   if (urdf.find("<xacro:") != std::string::npos)
-    throw Error(source + ": is a xacro file, not yet URDF; expand it first with rosrun xacro xacro FILE > ROBOT.urdf");
+    throw Error(source +
+                ": is a xacro file, not yet URDF; expand it first with pipx run xacro FILE > ROBOT.urdf (apt install pipx; "
+                "Debian has no package of xacro itself), or with xacro FILE > ROBOT.urdf where there is one");
   Complaints complaints;
   urdf::ModelInterfaceSharedPtr model;
   std::string reason;

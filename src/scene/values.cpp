@@ -271,6 +271,23 @@ Codec<Vector3d> size() {
           write_vector};
 }
 
+Codec<Vector3d> scale() {
+  const std::string each = "each other than 0";
+  return {"number or [x, y, z]", "greater than 0; or " + each,
+          [each](const Setting& setting, const Item& item, Context&) -> Vector3d {
+            const std::string demand = "a number greater than 0, or three along x, y and z, " + each;
+            if (setting.kind != Setting::Kind::list) return Vector3d::Constant(number_in_range(setting, item, greater_than(0)));
+            const std::vector<double> numbers = numbers_of(setting, item, 3, 3, demand);
+            const Vector3d scale(numbers[0], numbers[1], numbers[2]);
+            if ((scale.array() == 0).any()) refuse(setting, item, demand);
+            return scale;
+          },
+          [](const Vector3d& value, const Context&) -> std::optional<Setting> {
+            const bool even = value.x() > 0 && value == Vector3d::Constant(value.x());
+            return even ? number_setting(value.x()) : vector_setting(value);
+          }};
+}
+
 Codec<Vector3d> gauge_position() {
   return {"[x, y]", "",
           [](const Setting& setting, const Item& item, Context& context) {

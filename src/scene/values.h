@@ -89,6 +89,7 @@ Codec<std::string> frame();         ///< of tf
 Codec<Vector3d> vector();           ///< 3 numbers; in 2-D also [x, z]
 Codec<Vector3d> position();         ///< the same, but y is 0 in 2-D whatever is given
 Codec<Vector3d> size();             ///< the same, each greater than 0
+Codec<Vector3d> scale();            ///< a number greater than 0, or three of which none is 0
 Codec<Vector3d> gauge_position();   ///< [x, y] or [x, y, z], in 2-D [x] as well; z is not kept
 Codec<std::array<bool, 3>> axes();  ///< a list of the letters x, y, z; y not in 2-D
 Codec<Vector3d> angles();           ///< three, degrees in the setting, radians in the value

@@ -84,6 +84,34 @@ TEST_F(Layout2d, ABodyIsClosedEmptyAndFacesItsInside) {
   }
 }
 
+TEST_F(Layout2d, SolidsThatTouchAlongAnEdgeAreClosed) {
+  Case checked = box_case(Vector3d(1, 0, 0.5), 0.4, 0.02);
+  TriangleMesh mesh = box_mesh({Vector3d(0.3, -0.1, 0.1), Vector3d(0.4, 0.1, 0.2)}, false, "");
+  append(mesh, box_mesh({Vector3d(0.4, -0.1, 0.2), Vector3d(0.5, 0.1, 0.3)}, false, ""));
+  append(mesh, box_mesh({Vector3d(0.3, -0.1, 0.3), Vector3d(0.4, 0.1, 0.35)}, false, ""));
+  BodyCase body;
+  body.name = "steps";
+  body.shape = source(write("steps.obj", mesh));
+  checked.bodies = {body};
+  const Layout layout = lay_out(checked);
+  const OwnerSums sums = sums_of(layout, 1);
+  EXPECT_NEAR(sums.area, 2 * 0.4 + 0.3, 1e-6);
+  EXPECT_LT(sums.flux.norm(), 1e-6);
+  EXPECT_NEAR(sums.divergence, -2 * 0.025, 1e-6);
+  EXPECT_NEAR(total(layout.volumes), 0.4 - 0.025, 1e-3);
+}
+
+TEST_F(Layout2d, ABodyFarOutOfTheTankIsSampledInItOnly) {
+  Case checked = box_case(Vector3d(1, 0, 0.5), 0.4, 0.02);
+  BodyCase body;
+  body.name = "beam";
+  body.shape = Box{Vector3d(0.3, 0, 0.1), Vector3d(1e5, 0, 0.2)};
+  checked.bodies = {body};
+  const Layout layout = lay_out(checked);
+  EXPECT_NEAR(sums_of(layout, 1).area, 2 * 0.7 + 0.1, 1e-4);
+  EXPECT_LT(sums_of(layout, 1).count, 80);
+}
+
 TEST_F(Layout2d, ABoxOnTheFloorUncoversItsFootprint) {
   Case checked = box_case(Vector3d(1, 0, 0.5), 0.4, 0.02);
   BodyCase body;
@@ -100,7 +128,7 @@ TEST_F(Layout2d, ARoundBodyOfShortSegmentsGetsElementsOfTheSpacing) {
   BodyCase body;
   body.name = "cylinder";
   MeshSource sphere = source(repository_mesh("sphere.stl"));
-  sphere.scale = 0.4;
+  sphere.scale = Vector3d::Constant(0.4);
   sphere.translation = Vector3d(0.5, 0.001, 0.5);
   body.shape = sphere;
   checked.bodies = {body};

@@ -1,9 +1,23 @@
 #include <algorithm>
 
 #include "geometry_fixture.h"
+#include "wavetank/common/log.h"
+#include "wavetank/scene/case_reader.h"
 
 namespace wavetank {
 namespace {
+
+/// The lines that are logged while it lives.
+class LogLines {
+ public:
+  LogLines() {
+    set_log_sink([this](LogLevel, const std::string& line) { lines.push_back(line); });
+  }
+  ~LogLines() {
+    set_log_sink([](LogLevel, const std::string&) {});
+  }
+  std::vector<std::string> lines;
+};
 
 class LayoutFluid : public GeometryTest {
  protected:
@@ -33,6 +47,42 @@ BodyCase box_body(const std::string& name, const Vector3d& low, const Vector3d& 
   body.name = name;
   body.shape = Box{low, high};
   return body;
+}
+
+/// Links as a user writes them: meshes in millimetres beside the URDF, one mirrored, one stretched.
+TEST_F(LayoutFluid, MeshesOfARobotAreMirroredAndStretched) {
+  TriangleMesh wedge;
+  for (const double y : {0.0, 150.0})
+    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(200, y, 0), Vector3d(0, y, 100)}) wedge.vertices.push_back(corner);
+  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  write("wedge_mm.obj", wedge);
+  std::string urdf = "<robot name=\"pair\">";
+  const std::pair<const char*, const char*> links[] = {
+      {"left", "0.001 0.001 0.001"}, {"right", "0.001 -0.001 0.001"}, {"large", "0.0015 0.0015 0.0015"}, {"flat", "0.002 0.001 -0.0005"}};
+  const char* places[] = {"0 0 0", "0 -0.05 0", "0.3 0 0", "0.3 -0.2 0.2"};
+  for (int k = 0; k < 4; ++k) {
+    const std::string name = links[k].first;
+    urdf += "<link name=\"" + name + "\"><collision><geometry><mesh filename=\"wedge_mm.obj\" scale=\"" + links[k].second +
+            "\"/></geometry></collision></link>";
+    if (k > 0) {
+      urdf += "<joint name=\"to_" + name + "\" type=\"fixed\"><parent link=\"left\"/><child link=\"" + name + "\"/><origin xyz=\"" +
+              places[k] + "\"/></joint>";
+    }
+  }
+  write("robot.urdf", urdf + "</robot>");
+  const Case checked = read_case_file(
+      write("case.yaml",
+            "duration: 1\nfluid: {spacing: 0.04, fill: [{box: {min: [0, 0, 0], max: [1, 0.7, 0.5]}}]}\ntank: {box: {size: [1, 0.7, 0.6]}}\n"
+            "robots: [{urdf: robot.urdf, position: [0.1, 0.4, 0.15], motion: fixed}]\n"));
+  const Layout layout = lay_out(checked);
+  ASSERT_EQ(layout.meshes.size(), 5u);
+  const double volumes[] = {0.0015, 0.0015, 0.0050625, 0.0015};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(layout.meshes[k + 1].signed_volume(), volumes[k], 1e-8) << links[k].first;
+    EXPECT_NEAR(sums_of(layout, k + 1).divergence, -3 * volumes[k], 1e-6) << links[k].first;
+  }
+  EXPECT_NEAR(layout.meshes[2].bounding_box().min.y(), 0.2, 1e-6);
+  EXPECT_NEAR(layout.meshes[4].bounding_box().min.z(), 0.3, 1e-6);
 }
 
 TEST_F(LayoutFluid, ABoxIsFilledToItsExactVolume) {
@@ -106,6 +156,140 @@ TEST_F(LayoutFluid, ObstaclesStayEmpty) {
   }
 }
 
+/// A gap has particles only as they fit, whatever stands about it.
+TEST_F(LayoutFluid, ParticlesInNarrowGapsHaveTheirRoom) {
+  struct Place {
+    const char* what;
+    Vector3d low, high;  ///< of a body that leaves a gap of width 0 to what faces it ...
+    Vector3d off;        ///< ... and which way it is moved from there
+    std::optional<Box> other;
+  };
+  const std::vector<Place> places = {
+      {"over the floor", {0.3, 0.1, 0}, {0.7, 0.4, 0.2}, {0, 0, 1}, {}},
+      {"beside the wall", {0, 0.1, 0.1}, {0.3, 0.4, 0.3}, {1, 0, 0}, {}},
+      {"beside a body", {0.5, 0.1, 0.1}, {0.7, 0.4, 0.3}, {1, 0, 0}, Box{Vector3d(0.3, 0.1, 0.1), Vector3d(0.5, 0.4, 0.3)}},
+      {"above a body", {0.3, 0.1, 0.15}, {0.5, 0.4, 0.3}, {0, 0, 1}, Box{Vector3d(0.3, 0.1, 0), Vector3d(0.5, 0.4, 0.15)}},
+  };
+  constexpr double spacing = 0.05;
+  for (const int dimensions : {3, 2}) {
+    for (const bool flood : {false, true}) {
+      for (const Place& place : places) {
+        const std::vector<double> few = {0.55, 1.0, 1.3, 1.8}, many = {0.3, 0.55, 0.7, 0.85, 1.0, 1.1, 1.3, 1.6, 1.8, 1.95};
+        for (const double width : dimensions == 3 ? few : many) {
+          SCOPED_TRACE(std::string(place.what) + (flood ? ", seed, " : ", box, ") + std::to_string(dimensions) + "-D, " +
+                       std::to_string(width));
+          Case checked = box_case(Vector3d(1, dimensions == 3 ? 0.5 : 0, 0.5), 0.4, spacing);
+          if (flood) checked.fluid.fill = {FloodFill{Vector3d(0.93, 0.07, 0.33), 0.4}};
+          const Vector3d moved = width * spacing * place.off;
+          checked.bodies = {box_body("box", place.low + moved, place.high + moved)};
+          if (place.other) checked.bodies.push_back(box_body("other", place.other->min, place.other->max));
+          const Layout layout = lay_out(checked);
+          const Vector3d gap_end = place.low + moved;
+          const int axis = place.off.x() > 0 ? 0 : 2;
+          std::vector<double> heights;  // in the gap, over the wall across it
+          for (const Vector3d& p : layout.particles) {
+            bool within = p[axis] > place.low[axis] && p[axis] < gap_end[axis];
+            for (int other = 0; other < dimensions; ++other) {
+              const int along = dimensions == 2 ? 2 * other : other;
+              if (along != axis) within = within && p[along] > place.low[along] && p[along] < place.high[along];
+            }
+            if (within) heights.push_back((p[axis] - place.low[axis]) / spacing);
+          }
+          const double across = dimensions == 3 ? 6 : 1;           // rows along y
+          const double along = axis == 2 && !place.other ? 8 : 4;  // and along the gap
+          const double layers = static_cast<double>(heights.size()) / (across * along);
+          if (width < 0.9) {
+            EXPECT_EQ(heights.size(), 0u);
+          }
+          EXPECT_LE(layers, width < 1.7 ? 1.01 : 2.01);
+          if (width >= 1.0) {
+            EXPECT_GE(layers, 0.99);
+          }
+          for (const double height : heights) {
+            EXPECT_GT(height, 0.499);
+            EXPECT_LT(height, width - 0.499);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(LayoutFluid, NarrowTanksAreFilledToTheirVolume) {
+  // Their cells are fitted to them, and so is the room that a particle needs.
+  EXPECT_NEAR(total(lay_out(box_case(Vector3d(1, 0.03, 0.5), 0.4, 0.05)).volumes), 0.012, 1e-9);
+  EXPECT_NEAR(total(lay_out(box_case(Vector3d(1, 0.08, 0.5), 0.4, 0.05)).volumes), 0.032, 1e-9);
+  EXPECT_NEAR(total(lay_out(box_case(Vector3d(0.07, 0, 0.5), 0.4, 0.05)).volumes), 0.028, 1e-9);
+  EXPECT_NEAR(total(lay_out(box_case(Vector3d(0.074, 0, 0.5), 0.4, 0.05)).volumes), 0.0296, 1e-9);
+  Case flood = box_case(Vector3d(0.08, 0, 0.5), 0.4, 0.05);
+  flood.fluid.fill = {FloodFill{Vector3d(0.05, 0, 0.1), 0.4}};
+  EXPECT_NEAR(total(lay_out(flood).volumes), 0.032, 1e-6);
+}
+
+/// A boat of 0.5 × 0.3 × 0.15 m about the middle of its bottom, 30 mm thick, open at the top.
+TriangleMesh open_boat() {
+  TriangleMesh boat = box_mesh({Vector3d(-0.25, -0.15, 0), Vector3d(0.25, 0.15, 0.15)}, true, "");
+  TriangleMesh inner = box_mesh({Vector3d(-0.22, -0.12, 0.03), Vector3d(0.22, 0.12, 0.15)}, true, "");
+  for (Vector3i& t : inner.triangles) std::swap(t[1], t[2]);
+  append(boat, inner);
+  const int ring[4] = {4, 5, 7, 6};  // the corners at the top of either, in turn
+  for (int k = 0; k < 4; ++k) {
+    const int a = ring[k], b = ring[(k + 1) % 4];
+    boat.triangles.emplace_back(a, b, b + 8);
+    boat.triangles.emplace_back(a, b + 8, a + 8);
+  }
+  return boat;
+}
+
+TEST_F(LayoutFluid, WaterThatABodyPartsFromTheRestOfABoxIsTold) {
+  Case checked = box_case(Vector3d(0.9, 0.6, 0.5), 0.25, 0.03);
+  BodyCase boat;
+  boat.name = "boat";
+  MeshSource mesh = source(write("boat.obj", open_boat()));
+  mesh.translation = Vector3d(0.45, 0.3, 0.19);
+  boat.shape = mesh;
+  const auto warnings = [&](const Case& told) {
+    const LogLines log;
+    lay_out(told);
+    return log.lines;
+  };
+  for (const int dimensions : {3, 2}) {
+    checked.dimensions = dimensions;
+    if (dimensions == 2) mesh.translation.y() = 0.01;
+    boat.shape = mesh;
+    checked.bodies = {boat};
+    const std::vector<std::string> told = warnings(checked);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("fluid/fill/0: body 'boat' parts 0.0"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find(dimensions == 3 ? " m³ (3." : " m³ a metre of width (1"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("fill from a seed"), std::string::npos) << told[0];
+
+    Case seed = checked;
+    seed.fluid.fill = {FloodFill{Vector3d(0.05, 0.05, 0.05), 0.25}};
+    EXPECT_TRUE(warnings(seed).empty());
+    Case sunk = checked;  // over its brim
+    sunk.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.9, 0.6, 0.4)}};
+    EXPECT_TRUE(warnings(sunk).empty());
+    Case two = checked;
+    two.bodies[0].name = "left";
+    std::get<MeshSource>(two.bodies[0].shape).scale = Vector3d(0.7, 1, 1);
+    std::get<MeshSource>(two.bodies[0].shape).translation.z() = 0.2;
+    std::get<MeshSource>(two.bodies[0].shape).translation.x() = 0.2;
+    two.bodies.push_back(two.bodies[0]);
+    two.bodies[1].name = "right";
+    std::get<MeshSource>(two.bodies[1].shape).translation.x() = 0.6;
+    EXPECT_EQ(warnings(two).size(), 2u);
+  }
+  checked = box_case(Vector3d(0.9, 0.6, 0.5), 0.25, 0.03);
+  checked.bodies = {box_body("block", Vector3d(0.2, 0.2, 0.1), Vector3d(0.5, 0.4, 0.4))};
+  EXPECT_TRUE(warnings(checked).empty());
+  checked.bodies = {box_body("gate", Vector3d(0.4, 0, 0), Vector3d(0.45, 0.6, 0.4))};
+  EXPECT_EQ(warnings(checked).size(), 1u);
+  // Water on either side of the gate as two boxes is what is meant.
+  checked.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.4, 0.6, 0.25)}, Box{Vector3d(0.45, 0, 0), Vector3d(0.9, 0.6, 0.25)}};
+  EXPECT_TRUE(warnings(checked).empty());
+}
+
 TEST_F(LayoutFluid, ParticlesOnAnObstaclesSurfaceAreLeftOut) {
   Case checked = box_case(Vector3d(1, 0.5, 0.5), 0.4, 0.05);
   checked.bodies = {box_body("box", Vector3d(0.325, 0.225, 0.125), Vector3d(0.575, 0.375, 0.275))};  // its faces lie on lattice planes
@@ -146,6 +330,35 @@ TEST_F(LayoutFluid, AFloodDoesNotSqueezeThroughWhereCornersMeet) {
   append(pen, other);
   const Layout layout = lay_out(flood_case(tank_with(pen), Vector3d(0.1, 0.1, 0.1), 0.3));
   EXPECT_NEAR(total(layout.volumes), 0.5 * 0.25 * 0.3, 1e-5);
+}
+
+/// The floor's and the sides' triangles end at the baffle, as every mesh generator makes them, or do not.
+TEST_F(LayoutFluid, AFloodStopsAtABaffleThatIsJoinedToItsTank) {
+  for (const bool joined : {false, true}) {
+    for (const int dimensions : {3, 2}) {
+      SCOPED_TRACE(std::to_string(dimensions) + (joined ? "-D, joined" : "-D, loose"));
+      const double ends[] = {0, joined ? 0.5 : 1.0, 1};
+      TriangleMesh tank = plate(0.5, -0.2, 0.2, 0, 0.3);
+      for (int part = 0; part < (joined ? 2 : 1); ++part) {
+        TriangleMesh half = box_mesh({Vector3d(ends[part], -0.2, 0), Vector3d(ends[part + 1], 0.2, 0.5)}, true, "");
+        half.triangles.erase(std::remove_if(half.triangles.begin(), half.triangles.end(),
+                                            [&](const Vector3i& t) {
+                                              const double x = half.vertices[t[0]].x();
+                                              return joined && x == 0.5 && half.vertices[t[1]].x() == x && half.vertices[t[2]].x() == x;
+                                            }),
+                             half.triangles.end());
+        append(tank, half);
+      }
+      Case checked = flood_case(source(write("tank.obj", tank)), Vector3d(0.2, 0, 0.1), 0.24);
+      checked.fluid.spacing = 0.04;
+      checked.dimensions = dimensions;
+      const Layout layout = lay_out(checked);
+      EXPECT_NEAR(total(layout.volumes), 0.5 * 0.24 * (dimensions == 3 ? 0.4 : 1), 1e-5);
+      for (const Vector3d& p : layout.particles) EXPECT_LT(p.x(), 0.5);
+      // Wet are all of the tank, over the baffle as well, and both of the baffle's sides.
+      EXPECT_NEAR(sums_of(layout, 0).area, dimensions == 3 ? 0.4 + 2 * 0.5 * 1.4 + 2 * 0.4 * 0.3 : 1 + 2 * 0.5 + 2 * 0.3, 1e-5);
+    }
+  }
 }
 
 TEST_F(LayoutFluid, AFloodPassesUnderAWeir) {

@@ -240,6 +240,56 @@ TEST_F(LayoutWalls, ABodyThroughAWallShowsOnlyItsPartInside) {
   EXPECT_NEAR(sums_of(layout, 0).area, 1 + 4 * 0.8 - 0.04, 1e-7);
 }
 
+TEST_F(LayoutWalls, ABodyFarOutOfTheTankIsSampledInItOnly) {
+  Case checked = box_case(Vector3d(0.8, 0.6, 0.8), 0.3, 0.08);
+  BodyCase body;
+  body.name = "beam";
+  for (const double length : {2.0, 1e4}) {
+    for (const bool mesh : {false, true}) {
+      const Box box{Vector3d(0.3, 0.2, 0.1), Vector3d(0.5, length, 0.3)};
+      if (mesh) {
+        TriangleMesh beam = box_mesh(box, false, "");
+        beam.vertices[7] += Vector3d(0.1, 0, 0);  // no rectangles
+        body.shape = source(write("beam.obj", beam));
+      } else {
+        body.shape = box;
+      }
+      checked.bodies = {body};
+      const Layout layout = lay_out(checked);
+      EXPECT_NEAR(sums_of(layout, 1).area, 0.4 * 0.8 + 0.04, mesh ? 0.04 : 1e-5) << length;
+      EXPECT_LT(sums_of(layout, 1).count, 120) << length;
+    }
+  }
+  body.shape = Box{Vector3d(0.3, 0.2, 0.1), Vector3d(0.5, 1e9, 0.3)};
+  checked.bodies = {body};
+  EXPECT_ERROR(lay_out(checked), "body 'beam' reaches from (0.3, 0.2, 0.1) to (0.5, 1e+09, 0.3) m, too far for a particle spacing");
+  body.shape = Box{Vector3d(0.3, 0.2, 0.1), Vector3d(0.5, 1e7, 0.3)};
+  body.motion = Motion::free;
+  checked.bodies = {body};
+  EXPECT_ERROR(lay_out(checked), "too far for a particle spacing");
+}
+
+TEST_F(LayoutWalls, SolidsOfOneBodyThatTouchAreClosedToTheWater) {
+  // A post on a plinth with no common vertices, and a block that shares an edge with the plinth.
+  Case checked = box_case(Vector3d(1, 1, 0.8), 0.7, 0.05);
+  TriangleMesh mesh = box_mesh({Vector3d(0.3, 0.3, 0.2), Vector3d(0.7, 0.7, 0.3)}, false, "");
+  append(mesh, box_mesh({Vector3d(0.4, 0.4, 0.3), Vector3d(0.6, 0.6, 0.5)}, false, ""));
+  append(mesh, box_mesh({Vector3d(0.7, 0.3, 0.3), Vector3d(0.8, 0.7, 0.4)}, false, ""));
+  BodyCase body;
+  body.name = "plinth";
+  body.shape = source(write("plinth.obj", mesh));
+  checked.bodies = {body};
+  for (const Motion motion : {Motion::fixed, Motion::free}) {
+    checked.bodies[0].motion = motion;
+    const Layout layout = lay_out(checked);
+    const OwnerSums sums = sums_of(layout, 1);
+    const double plinth = 2 * 0.16 + 4 * 0.04 - 0.04, post = 0.04 + 4 * 0.04, block = 2 * 0.04 + 2 * 0.04 + 2 * 0.01;
+    EXPECT_NEAR(sums.area, plinth + post + block, 1e-5);
+    EXPECT_LT(sums.flux.norm(), 1e-5);
+    EXPECT_NEAR(sums.divergence, -3 * (0.016 + 0.008 + 0.004), 1e-5);
+  }
+}
+
 TEST_F(LayoutWalls, ABaffleGetsAnElementOnEachSide) {
   TriangleMesh tank = box_mesh({Vector3d::Zero(), Vector3d(1, 0.5, 0.5)}, true, "");
   append(tank, plate(0.525, 0.1, 0.4, 0.1, 0.4));  // on a plane of the fill's lattice, through its middle

@@ -51,12 +51,102 @@ TEST(CheckSurface, RefusesEmptyAndDegenerate) {
   EXPECT_ERROR(check_surface(mesh), "zero area");
 }
 
-TEST(CheckSurface, RefusesAnEdgeOfThreeTriangles) {
+TEST(CheckSurface, AcceptsAnEdgeOfThreeTriangles) {
   TriangleMesh mesh;
-  mesh.name = "fin";
+  mesh.name = "baffle";
   mesh.vertices = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(0, 0, 1)};
   mesh.triangles = {Vector3i(0, 1, 2), Vector3i(0, 1, 3), Vector3i(0, 1, 4)};
-  EXPECT_ERROR(check_surface(mesh), "3 triangles share the edge from (0, 0, 0) to (1, 0, 0)");
+  check_surface(mesh);
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_ERROR(check_closed(mesh), "'baffle' is not closed");
+}
+
+/// Unit cubes at whole numbers, with common vertices where they touch. Of two that share a face across y or x the face's diagonals differ.
+class TouchingSolids : public GeometryTest {
+ protected:
+  TriangleMesh cubes(const std::vector<Vector3d>& places) const {
+    TriangleMesh mesh;
+    for (const Vector3d& place : places) append(mesh, box_mesh({place, place + Vector3d::Ones()}, false, ""));
+    return mesh;
+  }
+  /// With equal vertices merged, as of a file.
+  TriangleMesh welded(const TriangleMesh& mesh) const { return read_mesh(source(write("solids.obj", mesh)), "", {}); }
+};
+
+TEST_F(TouchingSolids, AlongAnEdgeOrAFaceEncloseTheirVolume) {
+  const std::vector<std::vector<Vector3d>> arrangements = {
+      {{0, 0, 0}, {1, 1, 0}},                                  // an edge
+      {{0, 0, 0}, {0, 0, 1}},                                  // a face of common triangles
+      {{0, 0, 0}, {0, 1, 0}},                                  // a face of two pairs of triangles
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},                       // three in a row
+      {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}},                       // three about an edge
+      {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}},            // four about an edge
+      {{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}},            // every two along an edge
+      {{0, 0, 0}, {1, 1, 1}},                                  // a corner
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}}  // faces of both kinds
+  };
+  for (const bool inverted : {false, true}) {
+    for (const std::vector<Vector3d>& places : arrangements) {
+      SCOPED_TRACE(std::to_string(&places - arrangements.data()) + (inverted ? ", wound inwards" : ""));
+      TriangleMesh mesh = cubes(places);
+      if (inverted) std::for_each(mesh.triangles.begin(), mesh.triangles.end(), [](Vector3i& t) { std::swap(t[0], t[1]); });
+      mesh = welded(mesh);
+      check_closed(mesh);
+      EXPECT_NEAR(mesh.signed_volume(), static_cast<double>(places.size()), 1e-9);
+      for (const Vector3d& place : places) EXPECT_TRUE(inside(mesh, place + Vector3d(0.5, 0.4, 0.3)));
+      EXPECT_FALSE(inside(mesh, Vector3d(0.5, 1.5, 0.4)) && places.size() == 3);
+    }
+  }
+}
+
+TEST_F(TouchingSolids, WhatPartsThemGoes) {
+  TriangleMesh mesh = welded(cubes({{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}));
+  check_closed(mesh);
+  EXPECT_EQ(mesh.triangles.size(), 2u + 2 + 3 * 8);
+  EXPECT_NEAR(surface_area(mesh), 14, 1e-12);
+}
+
+TEST_F(TouchingSolids, ABulkheadInABodyGoesWhateverItsWinding) {
+  for (int mask = 0; mask < 16384; mask += 57) {
+    TriangleMesh mesh = cubes({{0, 0, 0}, {0, 0, 1}});
+    mesh = welded(mesh);
+    ASSERT_EQ(mesh.triangles.size(), 22u);
+    for (int t = 0; t < 22; ++t) {
+      if (mask >> (t % 14) & 1) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    }
+    check_closed(mesh);
+    EXPECT_EQ(mesh.triangles.size(), 20u) << mask;
+    EXPECT_NEAR(mesh.signed_volume(), 2, 1e-9) << mask;
+  }
+}
+
+TEST_F(TouchingSolids, BricksKeepTheSpaceBetweenThem) {
+  std::vector<Vector3d> places;
+  for (int k = 0; k < 27; ++k) {
+    if (k != 13) places.emplace_back(k % 3, k / 3 % 3, k / 9);
+  }
+  TriangleMesh mesh = welded(cubes(places));
+  check_closed(mesh);
+  EXPECT_NEAR(mesh.signed_volume(), 26, 1e-9);
+  EXPECT_FALSE(inside(mesh, Vector3d(1.5, 1.5, 1.5)));
+  EXPECT_TRUE(inside(mesh, Vector3d(0.5, 1.5, 1.4)));
+}
+
+TEST_F(TouchingSolids, ABlockInACrateIsNoCavity) {
+  // The walls of the crate are 1 thick; the block fills a corner of it and has no vertex in common with it.
+  TriangleMesh mesh = cubes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 0, 1}});
+  append(mesh, box_mesh({Vector3d(1, 0.25, 1), Vector3d(1.5, 0.75, 1.5)}, false, ""));
+  mesh = welded(mesh);
+  check_closed(mesh);
+  EXPECT_NEAR(mesh.signed_volume(), 5.125, 1e-9);
+}
+
+TEST_F(TouchingSolids, RefusesOnesThatLieUponEachOther) {
+  // A second cube over half of the first, from the same edge on: two pairs of triangles lie upon each other, wound alike.
+  TriangleMesh mesh = cubes({{0, 0, 0}});
+  append(mesh, box_mesh({Vector3d::Zero(), Vector3d(0.5, 1, 0.5)}, false, ""));
+  mesh = welded(mesh);
+  EXPECT_ERROR(check_closed(mesh), "'solids.obj' has no clear inside: triangles lie upon each other at the edge from (0, ");
 }
 
 TEST(CheckClosed, RefusesAnOpenBodyAndSaysWhere) {

@@ -1,4 +1,6 @@
+#include <cctype>
 #include <cstdlib>
+#include <utility>
 
 #include "geometry_fixture.h"
 
@@ -45,12 +47,29 @@ TEST_F(MeshReader, ReadsPlyAndOff) {
 
 TEST_F(MeshReader, ScalesThenRotatesThenTranslates) {
   MeshSource from = source(write("box.obj", box_mesh({Vector3d::Zero(), Vector3d(1000, 2000, 3000)}, false, "")));
-  from.scale = 1e-3;
+  from.scale = Vector3d::Constant(1e-3);
   from.rotation = Vector3d(0, 0, M_PI / 2);  // x to y, y to −x
   from.translation = Vector3d(10, 20, 30);
   const Box box = read(from).bounding_box();
   EXPECT_TRUE(box.min.isApprox(Vector3d(8, 20, 30), 1e-9)) << box.min.transpose();
   EXPECT_TRUE(box.max.isApprox(Vector3d(10, 21, 33), 1e-9)) << box.max.transpose();
+}
+
+TEST_F(MeshReader, MirrorsAndStretches) {
+  // A wedge in millimetres: the half of a box of 0.2 × 0.15 × 0.1 m below its diagonal.
+  TriangleMesh wedge;
+  for (const double y : {0.0, 150.0})
+    for (const Vector3d& corner : {Vector3d(0, y, 0), Vector3d(200, y, 0), Vector3d(0, y, 100)}) wedge.vertices.push_back(corner);
+  wedge.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+  MeshSource from = source(write("wedge_mm.obj", wedge));
+  for (const Vector3d& signs : {Vector3d(1, 1, 1), Vector3d(1, -1, 1), Vector3d(-1, -1, 1), Vector3d(-1, -1, -1)}) {
+    from.scale = 1e-3 * signs;
+    const TriangleMesh mesh = read(from);
+    EXPECT_NEAR(mesh.signed_volume(), 0.0015, 1e-12) << signs.transpose();
+    EXPECT_LT((mesh.centre_of_volume() - signs.cwiseProduct(Vector3d(0.2 / 3, 0.075, 0.1 / 3))).norm(), 1e-12) << signs.transpose();
+  }
+  from.scale = Vector3d(0.002, 0.003, -0.0005);
+  EXPECT_NEAR(read(from).signed_volume(), 0.0045, 1e-12);
 }
 
 TEST_F(MeshReader, RotatesAboutFixedAxesRollFirst) {
@@ -128,6 +147,113 @@ TEST_F(MeshReader, RefusesATruncatedBinaryStl) {
   EXPECT_ERROR(read(source(write("cut.stl", bytes.str().substr(0, 300)))), "cannot be read");
 }
 
+/// A cube of side 2 about the origin as an STL text; `solid`, `facet` and so on as given by `spell`.
+template <class Spell>
+std::string stl_text(Spell spell, const std::string& start, const std::string& end, const std::string& line_end = "\n") {
+  const TriangleMesh cube = box_mesh({-Vector3d::Ones(), Vector3d::Ones()}, false, "");
+  std::ostringstream text;
+  text << start << line_end;
+  for (std::size_t t = 0; t < cube.triangles.size(); ++t) {
+    text << "  " << spell("facet normal 0 0 0") << line_end << "\t" << spell("outer loop") << line_end;
+    for (int k = 0; k < 3; ++k) {
+      text << spell("vertex");
+      for (int axis = 0; axis < 3; ++axis) text << " " << cube.corner(t, k)[axis];
+      text << line_end;
+    }
+    text << spell("endloop") << line_end << spell("endfacet") << line_end;
+  }
+  text << end;
+  return text.str();
+}
+
+std::string as_is(const std::string& word) { return word; }
+std::string in_capitals(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::toupper(c));
+  return word;
+}
+
+std::string stl_binary(const std::string& header, char attribute, const std::string& more = "") {
+  const TriangleMesh cube = box_mesh({-Vector3d::Ones(), Vector3d::Ones()}, false, "");
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  bytes += std::string({12, 0, 0, 0});
+  for (std::size_t t = 0; t < cube.triangles.size(); ++t) {
+    bytes += std::string(12, '\0');
+    for (int k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const float coordinate = static_cast<float>(cube.corner(t, k)[axis]);
+        bytes.append(reinterpret_cast<const char*>(&coordinate), sizeof coordinate);
+      }
+    }
+    bytes += std::string(2, attribute);
+  }
+  return bytes + more;
+}
+
+TEST_F(MeshReader, ReadsEveryDialectOfStl) {
+  const std::string plain = stl_text(as_is, "solid cube", "endsolid cube\n");
+  const std::pair<const char*, std::string> dialects[] = {
+      {"plain", plain},
+      {"capitals", stl_text(in_capitals, "SOLID FACE0", "ENDSOLID FACE0\n")},
+      {"mixed", stl_text(
+                    [](std::string word) {
+                      word[0] = static_cast<char>(std::toupper(word[0]));
+                      return word;
+                    },
+                    "Solid x", "EndSolid")},
+      {"no endsolid", stl_text(as_is, "solid", "")},
+      {"another endsolid", stl_text(as_is, "solid a", "endsolid of something else facet vertex")},
+      {"end in two words", stl_text(as_is, "solid a", "end solid a")},
+      {"no solid", stl_text(as_is, "", "endsolid")},
+      {"a name of keywords", stl_text(as_is, "solid facet vertex endloop", "endsolid facet")},
+      {"leading blanks", " \r\n\t\n " + plain},
+      {"a byte-order mark", "\xef\xbb\xbf" + plain},
+      {"both", "\xef\xbb\xbf \n" + plain},
+      {"carriage returns", stl_text(as_is, "solid a", "endsolid a", "\r")},
+      {"both line ends", stl_text(as_is, "solid a", "endsolid a\r\n", "\r\n")},
+      {"an end of DOS", plain + "\x1a"},
+      {"no values of the normal",
+       stl_text([](const std::string& word) { return word == "facet normal 0 0 0" ? "facet normal" : word; }, "solid", "endsolid")},
+      {"binary", stl_binary("made by hand", 0)},
+      {"binary that begins with solid", stl_binary("solid cube", 0)},
+      {"binary with colours", stl_binary("COLOR=\x10\x20\x30\xff,MATERIAL=", '\x7f')},
+      {"binary with something behind", stl_binary("solid", 0, "more")},
+  };
+  for (const auto& [what, text] : dialects) {
+    SCOPED_TRACE(what);
+    const TriangleMesh cube = read(source(write("cube.STL", text)));
+    EXPECT_EQ(cube.triangles.size(), 12u);
+    EXPECT_EQ(cube.vertices.size(), 8u);
+    EXPECT_NEAR(cube.signed_volume(), 8, 1e-12);
+  }
+}
+
+TEST_F(MeshReader, JoinsTheSolidsOfAnStlText) {
+  const std::string capitals = stl_text(in_capitals, "SOLID A", "ENDSOLID A\n");
+  const auto far = [](const std::string& word) { return word == "vertex" ? std::string("vertex 1") : word; };  // shifts x, y and drops z
+  EXPECT_EQ(read(source(write("two.stl", capitals + stl_text(as_is, "solid b", "")))).triangles.size(), 12u);
+  EXPECT_ERROR(read(source(write("four.stl", stl_text(far, "solid", "endsolid")))), "line 4: '-1' stands where solid, facet, outer loop");
+}
+
+TEST_F(MeshReader, RefusesStlTextsInPlainWords) {
+  const auto refuses = [&](const std::string& text, const std::string& why) {
+    EXPECT_ERROR(read(source(write("t.stl", text))), "t.stl' cannot be read: " + why);
+  };
+  const std::string facet = "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  refuses(facet + "facet normal 0 0 0\nouter loop\nvertex 0 0", "line 11: the text ends within a facet");
+  refuses(facet + "facet normal 0 0 0\nouter loop\nvertex 0 0 0\n", "line 12: the text ends within a facet");
+  refuses("solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 x\n", "line 4: a coordinate reads 'x'; it must be a finite number");
+  refuses("solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 1,5\n", "line 4: a coordinate reads '1,5'");
+  refuses("solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 nan\n", "line 4: a coordinate reads 'nan'");
+  refuses("solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 1e999\n", "line 4: a coordinate reads '1e999'");
+  refuses("solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 1\nvertex 0 1 1\nendloop\n", "line 6: a loop of 2 vertices");
+  refuses("solid a\nface 1 2 3\n", "line 2: 'face' stands where");
+  refuses(std::string("\xff\xfes\0o\0l\0i\0d\0", 12), "its text has two bytes a character (UTF-16)");
+  refuses("a picture of a cube", "it is no STL");
+  refuses(stl_binary("solid", 0).substr(0, 300), "as a binary STL it announces 12 triangles, but it ends after 4");
+  EXPECT_ERROR(read(source(write("none.stl", "solid a\nendsolid a\n"))), "none.stl' has no triangles");
+}
+
 TEST_F(MeshReader, RefusesAPlyThatEndsInItsHeader) {
   EXPECT_ERROR(read(source(write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"))), "cut.ply");
 }
@@ -144,7 +270,7 @@ TEST_F(MeshReader, RefusesAStlWithInfiniteVertices) {
 
 TEST_F(MeshReader, RefusesAScaleThatOverflows) {
   MeshSource from = source(repository_mesh("spheric2_box.stl"));
-  from.scale = std::numeric_limits<double>::infinity();
+  from.scale = Vector3d::Constant(std::numeric_limits<double>::infinity());
   EXPECT_ERROR(read(from), "not finite");
 }
 

@@ -83,7 +83,7 @@ TEST(ShapeMesh, CylinderOfTheUsualFinenessIsRound) {
 
 TEST(ShapeMesh, IsScaledThenRotatedThenTranslated) {
   MeshSource from = source("shape://cylinder?radius=0.5&length=4&facets=8");
-  from.scale = 0.5;
+  from.scale = Vector3d::Constant(0.5);
   from.rotation = Vector3d(0, M_PI / 2, 0);  // its axis from z to x
   from.translation = Vector3d(10, 20, 30);
   const Box box = read_mesh(from, "", ResourceResolver()).bounding_box();
@@ -149,7 +149,7 @@ TEST(ShapeMesh, RefusesWhatIsNoShape) {
 
 TEST(ShapeMesh, RefusesAPlacementWithoutEnd) {
   MeshSource from = source("shape://sphere?radius=1e200");
-  from.scale = 1e200;
+  from.scale = Vector3d::Constant(1e200);
   EXPECT_ERROR(read_mesh(from, "", ResourceResolver()), "its scale, rotation or translation makes vertices that are not finite numbers");
 }
 

@@ -51,7 +51,7 @@ TEST(Markers, KeepAPackageMeshAsAResource) {
   Case example = example_case();
   MeshSource source;
   source.uri = "package://somewhere/hull.STL";
-  source.scale = 0.001;
+  source.scale = Vector3d::Constant(0.001);
   source.translation = {1, 2, 3};
   source.rotation = {0, 0, M_PI / 2};
   example.bodies[0].shape = source;
@@ -62,6 +62,15 @@ TEST(Markers, KeepAPackageMeshAsAResource) {
   EXPECT_EQ(body.pose.position.y, 2.0);
   EXPECT_NEAR(body.pose.orientation.z, std::sqrt(0.5), 1e-12);
   EXPECT_TRUE(body.points.empty());
+}
+
+TEST(Markers, SendAMirroredMeshAsTriangles) {
+  Case example = example_case();
+  MeshSource source;
+  source.uri = "package://somewhere/hull.stl";
+  source.scale = Vector3d(0.001, -0.001, 0.001);
+  example.bodies[0].shape = source;
+  EXPECT_EQ(find(markers(example, example_layout(), example_frames(example)), "bodies").type, Marker::TRIANGLE_LIST);
 }
 
 TEST(Markers, SendOtherMeshesAsTriangles) {

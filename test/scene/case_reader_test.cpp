@@ -99,7 +99,7 @@ void expect_everything(const Case& read, const std::string& mesh) {
   EXPECT_DOUBLE_EQ(std::get<FloodFill>(read.fluid.fill[1]).level, 0.4);
   const auto& tank = std::get<MeshSource>(read.tank.shape);
   EXPECT_EQ(tank.uri, mesh);
-  EXPECT_DOUBLE_EQ(tank.scale, 0.001);
+  EXPECT_EQ(tank.scale, Vector3d::Constant(0.001));
   expect_close(tank.translation, {1, 2, 3});
   expect_close(tank.rotation, {pi / 2, -pi / 4, pi / 6});
   ASSERT_EQ(read.bodies.size(), 2u);

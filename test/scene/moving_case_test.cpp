@@ -122,7 +122,7 @@ void expect_tank(const TankCase& tank, const std::string& folder) {
   EXPECT_EQ(tank.rigid.collision, CollisionShape::parts);
   ASSERT_EQ(tank.rigid.collision_parts.size(), 2u);
   EXPECT_EQ(tank.rigid.collision_parts[0].uri, folder + "parts/floor.stl");
-  EXPECT_DOUBLE_EQ(tank.rigid.collision_parts[0].scale, 0.001);
+  EXPECT_EQ(tank.rigid.collision_parts[0].scale, Vector3d::Constant(0.001));
   expect_close(tank.rigid.collision_parts[0].translation, {1, 2, 3});
   expect_close(tank.rigid.collision_parts[0].rotation, {pi / 2, -pi / 4, pi / 6});
   EXPECT_EQ(tank.rigid.collision_parts[1].uri, "package://walls/wall.stl");

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "../common/scratch_directory.h"
 #include "broken_case.h"
@@ -109,7 +110,7 @@ TEST(Robot, ShapesAreThoseThatCollideOrElseAreSeen) {
   EXPECT_EQ(mesh(read, "buoy").uri, "shape://sphere?radius=0.15");
   const MeshSource& paddle = mesh(read, "paddle");
   EXPECT_EQ(paddle.uri, "package://wavetank/meshes/sphere.stl");
-  EXPECT_EQ(paddle.scale, 0.5);
+  EXPECT_EQ(paddle.scale, Vector3d::Constant(0.5));
   expect_close(paddle.translation, {0.99, 2.2, 2.5});
   // Pitched by 90°, where roll and yaw are one: its x points down, its y to −y as the arm's does.
   const Eigen::Matrix3d turn =
@@ -119,6 +120,46 @@ TEST(Robot, ShapesAreThoseThatCollideOrElseAreSeen) {
   // The pitch's arcsine near 1 has half of the digits.
   EXPECT_LT((turn.col(0) - Vector3d(0, 0, -1)).norm(), 1e-7) << turn;
   EXPECT_LT((turn.col(1) - Vector3d(0, -1, 0)).norm(), 1e-7) << turn;
+}
+
+std::string mesh_link(const std::string& name, const std::string& mesh) {
+  return "<link name=\"" + name + "\">" + inertial(1, "0 0 0") + "<collision><geometry><mesh " + mesh + "/></geometry></collision></link>";
+}
+
+TEST(Robot, MeshesAreNamedRelativeToItsFile) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directories(scratch.path() / "robots/meshes");
+  const std::string urdf = scratch.write(
+      "robots/pair.urdf", robot(mesh_link("near", "filename=\"near.stl\"") + mesh_link("below", "filename=\"meshes/below.stl\"") +
+                                mesh_link("beside", "filename=\"../beside.stl\"") + mesh_link("absolute", "filename=\"/a/b.stl\"") +
+                                mesh_link("packed", "filename=\"package://p/b.stl\"") + joint_text("a", "fixed", "near", "below") +
+                                joint_text("b", "fixed", "near", "beside") + joint_text("c", "fixed", "near", "absolute") +
+                                joint_text("d", "fixed", "near", "packed")));
+  const std::string file = scratch.write("case.yaml", case_with("{urdf: robots/pair.urdf}"));
+  const std::string directory = scratch.path().string();
+  for (const std::string case_text : {"", "by its absolute name"}) {
+    const Case read =
+        case_text.empty() ? read_case_file(file) : read_case_text(case_with("{urdf: \"" + urdf + "\"}"), "case.yaml");  // of no file
+    EXPECT_EQ(mesh(read, "near").uri, directory + "/robots/near.stl");
+    EXPECT_EQ(mesh(read, "below").uri, directory + "/robots/meshes/below.stl");
+    EXPECT_EQ(mesh(read, "beside").uri, directory + "/beside.stl");
+    EXPECT_EQ(mesh(read, "absolute").uri, "/a/b.stl");
+    EXPECT_EQ(mesh(read, "packed").uri, "package://p/b.stl");
+  }
+}
+
+TEST(Robot, MeshesAreMirroredAndStretched) {
+  const std::string file = "filename=\"package://p/a.stl\"";
+  const Case read =
+      read_robot(robot(mesh_link("left", file + " scale=\"0.001 0.001 0.001\"") +
+                       mesh_link("right", file + " scale=\"0.001 -0.001 0.001\"") + mesh_link("flat", file + " scale=\"2 3 0.5\"") +
+                       joint_text("a", "fixed", "left", "right") + joint_text("b", "fixed", "left", "flat")));
+  EXPECT_EQ(mesh(read, "left").scale, Vector3d::Constant(0.001));
+  EXPECT_EQ(mesh(read, "right").scale, Vector3d(0.001, -0.001, 0.001));
+  EXPECT_EQ(mesh(read, "flat").scale, Vector3d(2, 3, 0.5));
+  const Case again = read_case_text(write_case(read), "written");
+  EXPECT_EQ(mesh(again, "left").scale, Vector3d::Constant(0.001));
+  EXPECT_EQ(mesh(again, "right").scale, Vector3d(0.001, -0.001, 0.001));
 }
 
 TEST(Robot, JointsHaveTheirNamesPlacesAndAxes) {
@@ -285,7 +326,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Fault{"NoXml", "<robot", "robot", {"not a URDF description that can be read"}},
         Fault{"NotARobot", "<robot name=\"r\">", "<robot>", {"not a URDF description that can be read", "name"}},
-        Fault{"Xacro", "<robot name=\"r\">", "<robot name=\"r\"><xacro:arm/>", {"is a xacro file", "expand it first"}},
+        Fault{"Xacro",
+              "<robot name=\"r\">",
+              "<robot name=\"r\"><xacro:arm/>",
+              {"is a xacro file", "expand it first with pipx run xacro FILE > ROBOT.urdf"}},
         Fault{"NoSuchLink", "<child link=\"arm\"/>", "<child link=\"leg\"/>", {"not a URDF description that can be read", "leg", "elbow"}},
         Fault{"NoLimits",
               "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>",
@@ -308,10 +352,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"FlatBox", "size=\"1 1 1\"", "size=\"1 0 1\"", {"link 'base' has a shape whose size along y is 0; it must be"}},
         Fault{"PointSphere", "<box size=\"1 1 1\"/>", "<sphere radius=\"0\"/>", {"link 'base' has a shape whose radius is 0"}},
         Fault{"RelativeMesh", "<box size=\"1 1 1\"/>", "<mesh filename=\"a.stl\"/>", {"link 'base' has the mesh 'a.stl'", "package://"}},
-        Fault{"StretchedMesh",
+        Fault{"MeshWithoutAName", "<box size=\"1 1 1\"/>", "<mesh filename=\"\"/>", {"link 'base' has a mesh without a file name"}},
+        Fault{"FlattenedMesh",
               "<box size=\"1 1 1\"/>",
-              "<mesh filename=\"package://a/a.stl\" scale=\"1 2 1\"/>",
-              {"link 'base' has a mesh of scale 1 2 1; it must be the same in all directions"}},
+              "<mesh filename=\"package://a/a.stl\" scale=\"1 0 1\"/>",
+              {"link 'base' has a mesh of scale 1 0 1; it must be three numbers other than 0"}},
         Fault{"TwoShapes",
               "<collision>",
               "<collision><geometry><sphere radius=\"1\"/></geometry></collision><collision>",

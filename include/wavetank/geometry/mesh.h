@@ -39,12 +39,12 @@ TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directo
 /// The twelve triangles of a box, wound outwards; without those of the top if it is open.
 TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name);
 
-/// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed), no edge shared by more than two triangles
-/// (non-manifold).
+/// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed). Any number of triangles may share an edge,
+/// as where baffles stand on a tank's floor.
 void check_surface(TriangleMesh& mesh);
 
-/// Further checks for a body, which must enclose its volume: every edge shared by exactly two triangles, consistently wound (turned over
-/// where not), volume > 0 after orienting outwards, no self-inverted part. Throws Error naming the mesh and where (an edge's coordinates).
+/// For a body as well, which must enclose its volume: no edge of one triangle only, all turned outwards, none left between solids that
+/// share a face, volume > 0, no part inside out. Throws Error naming the mesh and an edge, also where triangles overlap at one.
 void check_closed(TriangleMesh& mesh);
 
 /// Whether a point lies inside a closed mesh (generalised winding number > 1/2: robust at edges and vertices).

@@ -22,7 +22,7 @@ struct Box {
 /// shape://box?size=X,Y,Z, shape://sphere?radius=R, shape://cylinder?radius=R&length=L.
 struct MeshSource {
   std::string uri;
-  double scale = 1.0;                       ///< metres per unit of the file
+  Vector3d scale = Vector3d::Ones();        ///< metres per unit of the file, along its axes; a negative one mirrors
   Vector3d translation = Vector3d::Zero();  ///< m, applied last
   Vector3d rotation = Vector3d::Zero();     ///< rad, roll-pitch-yaw about fixed axes, applied after the scale
 };
