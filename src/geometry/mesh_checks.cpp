@@ -88,6 +88,14 @@ bool encloses(const Box& outer, const Box& inner) {
   return (outer.min.array() <= inner.min.array()).all() && (outer.max.array() >= inner.max.array()).all();
 }
 
+/// Whether a part lies in another wholly; one that crosses or touches it from within is a solid of its own. By up to a hundred corners.
+bool lies_in(const TriangleMesh& inner, const TriangleMesh& outer) {
+  const std::size_t step = std::max<std::size_t>(1, inner.vertices.size() / 100);
+  for (std::size_t v = 0; v < inner.vertices.size(); v += step)
+    if (winding_number(outer, inner.vertices[v]) < 0.9) return false;
+  return true;
+}
+
 /// Outer parts are wound outwards, cavities (parts inside an odd number of others) inwards.
 void orient_parts(TriangleMesh& mesh, const std::vector<int>& part, int parts, double size) {
   std::vector<TriangleMesh> pieces = separate(mesh, part, parts);
@@ -105,7 +113,7 @@ void orient_parts(TriangleMesh& mesh, const std::vector<int>& part, int parts, d
   }
   for (int p = 0; p < parts; ++p) {
     for (int q = 0; q < parts; ++q) {
-      if (p != q && encloses(boxes[q], boxes[p]) && inside(pieces[q], pieces[p].corner(0, 0))) cavity[p] = !cavity[p];
+      if (p != q && encloses(boxes[q], boxes[p]) && lies_in(pieces[p], pieces[q])) cavity[p] = !cavity[p];
     }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
