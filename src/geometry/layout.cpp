@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assemblies.h"
 #include "fluid_filling.h"
 #include "instrument_checks.h"
 #include "mesh_topology.h"
@@ -201,12 +202,20 @@ void add_walls_of(const Part& part, int owner, const OpenSpace& open, const Tria
   if (checked.numerics.walls.elements == WallElements::semi_analytical) add(patches, layout.triangles);
 }
 
-/// All of its outside, as water all round it would wet it.
-void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const Case& checked, Layout& layout) {
-  std::vector<bool> alone(parts.size(), false);
-  alone[p] = true;
-  const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, alone);
-  Box room = checked.dimensions == 2 ? bounding_box(parts[p].outline) : parts[p].mesh.bounding_box();
+/// All of the outside of what it is part of, as water all round that would wet it: `assembly` are the parts that move as it does.
+void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const std::vector<bool>& assembly, const Case& checked,
+                      Layout& layout) {
+  const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, assembly);
+  const auto box_of = [&](const Part& part) { return checked.dimensions == 2 ? bounding_box(part.outline) : part.mesh.bounding_box(); };
+  Box room = box_of(parts[p]);
+  const Box own = room;
+  for (std::size_t other = 0; other < parts.size(); ++other) {
+    if (!assembly[other]) continue;
+    const Box box = box_of(parts[other]);
+    if ((box.min.array() > own.max.array()).any() || (box.max.array() < own.min.array()).any()) continue;
+    room.min = room.min.cwiseMin(box.min);
+    room.max = room.max.cwiseMax(box.max);
+  }
   Vector3d margin = Vector3d::Constant(3 * layout.spacing);
   if (checked.dimensions == 2) margin.y() = 0;
   room.min -= margin;
@@ -216,12 +225,16 @@ void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const Case&
   add_walls_of(parts[p], static_cast<int>(p), outside, grid, checked, layout);
 }
 
-void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+void add_walls(const std::vector<Part>& parts, const std::vector<int>& assemblies, const OpenSpace& open, const TriangleGrid& grid,
+               const Case& checked, Layout& layout) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (layout.moving[p])
-      add_moving_walls(parts, p, checked, layout);
-    else
+    if (!layout.moving[p]) {
       add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, layout);
+      continue;
+    }
+    std::vector<bool> assembly(parts.size());
+    for (std::size_t other = 1; other < parts.size(); ++other) assembly[other] = assemblies[other] == assemblies[p];
+    add_moving_walls(parts, p, assembly, checked, layout);
   }
 }
 
@@ -262,13 +275,15 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
 
   layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) layout.moving[b + 1] = checked.bodies[b].motion != Motion::fixed;
+  const std::vector<int> assemblies = rigid_assemblies(checked);
   std::vector<bool> standing = layout.moving;
   standing.flip();
+  for (std::size_t p = 1; p < parts.size(); ++p) standing[p] = standing[p] || assemblies[p] == 0;
   const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);
   OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all);
   open.flood(layout.particles);
   layout.open_top = open.open_top();
-  add_walls(parts, open, standing_grid, checked, layout);
+  add_walls(parts, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);

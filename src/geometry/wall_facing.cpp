@@ -43,7 +43,8 @@ struct Facing {
 
 class Facer {
  public:
-  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing) : open_(open), grid_(grid), spacing_(spacing) {}
+  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing, int owner)
+      : open_(open), grid_(grid), spacing_(spacing), owner_(owner) {}
 
   /// The part of the patch that fluid on the side of its pieces' normals (times `sign`) wets.
   Facing face(const WallPatch& patch, double sign) const {
@@ -105,9 +106,28 @@ class Facer {
     // At a sharp edge another face may pass between the piece and the place in front of it.
     if (grid_.crosses(centre + 3 * grid_.tolerance() * to_fluid, from)) return false;
     for (const double ahead : {0.6, 1.0, 0.3}) {
-      if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return true;
+      if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return !covered(centre, to_fluid);
     }
     return false;
+  }
+
+  /// Whether it is another body's that lies in its plane. Water is before both, so both are behind it, and one of them is enough.
+  bool covered(const Vector3d& centre, const Vector3d& to_fluid) const {
+    const Vector3d margin = Vector3d::Constant(grid_.tolerance());
+    for (const int t : grid_.overlapping({centre - margin, centre + margin})) {
+      const WallTriangle& other = grid_.triangles()[t];
+      if (comes_first(other, to_fluid, to_fluid.dot(centre)) &&
+          (nearest_on_triangle(centre, other.a, other.b, other.c) - centre).norm() <= grid_.tolerance())
+        return true;
+    }
+    return false;
+  }
+
+  /// Of two bodies whose faces lie on each other the first one keeps its own.
+  bool comes_first(const WallTriangle& other, const Vector3d& normal, double level) const {
+    if (other.owner == 0 || other.owner >= owner_) return false;
+    return std::abs(normal.dot(other.a) - level) <= grid_.tolerance() && std::abs(normal.dot(other.b) - level) <= grid_.tolerance() &&
+           std::abs(normal.dot(other.c) - level) <= grid_.tolerance();
   }
 
   /// Lines in which other walls cross the plane just in front of the piece; each as two vectors: a point, and the normal of the plane
@@ -123,12 +143,19 @@ class Facer {
     bounds.max += margin;
     const double level = to_fluid.dot(piece[0]) + lift * spacing_;
     std::vector<std::pair<double, std::pair<Vector3d, Vector3d>>> found;  // length inside the piece, line
-    for (const int t : grid_.overlapping(bounds)) {
-      Vector3d from, to;
-      if (!section(grid_.triangles()[t], to_fluid, level, from, to)) continue;
+    const auto add = [&](const Vector3d& from, const Vector3d& to) {
       const Vector3d across = to_fluid.cross(to - from).normalized();
       const double inside = length_inside(piece, to_fluid, from, to);
       if (inside > 1e-6 * spacing_) found.push_back({inside, {from, across}});
+    };
+    for (const int t : grid_.overlapping(bounds)) {
+      Vector3d from, to;
+      const WallTriangle& other = grid_.triangles()[t];
+      if (section(other, to_fluid, level, from, to)) add(from, to);
+      if (!comes_first(other, to_fluid, to_fluid.dot(piece[0]))) continue;
+      add(other.a, other.b);
+      add(other.b, other.c);
+      add(other.c, other.a);
     }
     if (found.size() > most_cuts) {
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -197,6 +224,7 @@ class Facer {
   const OpenSpace& open_;
   const TriangleGrid& grid_;
   double spacing_;
+  int owner_;
 };
 
 struct Unfinished {
@@ -273,7 +301,7 @@ Facet segment_of(const Polygon& ribbon, const Vector3d& along) {
 
 std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
                                double spacing, int dimensions) {
-  const Facer facer(open, grid, spacing);
+  const Facer facer(open, grid, spacing, owner);
   std::vector<Facet> facets;
   for (const WallPatch& patch : patches) {
     for (const Polygon& piece : patch.pieces) {
@@ -329,7 +357,7 @@ std::vector<Facet> facets_of(const WallElement& element, int dimensions) {
 
 std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
                                     double spacing) {
-  const Facer facer(open, grid, spacing);
+  const Facer facer(open, grid, spacing, owner);
   std::vector<Unfinished> elements;
   Vector3d origin = Vector3d::Zero();
   if (!patches.empty()) origin = patches.front().pieces.front().front();
