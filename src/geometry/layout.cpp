@@ -10,6 +10,7 @@
 #include "polygon.h"
 #include "wall_facing.h"
 #include "wavetank/common/error.h"
+#include "wavetank/geometry/solid_surface.h"
 
 namespace wavetank {
 namespace {
@@ -19,7 +20,8 @@ constexpr double touching = 1e-4;  // of the spacing: a way that comes so near t
 /// One part of the case: the tank or a body, before the spacing is known.
 struct Part {
   TriangleMesh mesh;
-  Outline outline;  ///< in 2-D
+  Outline outline;                     ///< in 2-D
+  std::vector<TriangleMesh> surfaces;  ///< where solids of the mesh touch or overlap: those that it is made of
 };
 
 /// Errors of a mesh say whose it is.
@@ -72,6 +74,7 @@ Part read_body(const BodyCase& body, const Case& checked, const ResourceResolver
   } else {
     part.mesh = read_mesh(std::get<MeshSource>(body.shape), checked.directory, resolve);
     check_closed(part.mesh);
+    if (!solid_surface(part.mesh).empty()) part.surfaces = closed_surfaces(part.mesh);
     if (checked.dimensions == 2) part.outline = cut_mesh(part.mesh);
   }
   return part;
@@ -86,20 +89,38 @@ std::vector<Part> read_parts(const Case& checked, const ResourceResolver& resolv
   return parts;
 }
 
+/// Each surface of a part for itself, in a fixed order.
+std::vector<Part> surfaces_of(const Part& part, int dimensions) {
+  std::vector<Part> surfaces;
+  if (dimensions == 2) {
+    for (const Polyline& line : part.outline) surfaces.push_back({{}, {line}, {}});
+  } else {
+    for (const TriangleMesh& mesh : part.surfaces) surfaces.push_back({mesh, {}, {}});
+  }
+  if (surfaces.size() < 2) return {part};
+  return surfaces;
+}
+
 /// Of the parts that are wanted; empty = all.
 TriangleGrid make_grid(const std::vector<Part>& parts, int dimensions, double spacing, const std::vector<bool>& wanted = {}) {
   std::vector<WallTriangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (!wanted.empty() && !wanted[p]) continue;
     const int owner = static_cast<int>(p);
-    if (dimensions == 2) {
-      const std::vector<WallTriangle> wall = ribbons(parts[p].outline, 2 * spacing, owner);
-      triangles.insert(triangles.end(), wall.begin(), wall.end());
-      continue;
+    int surface = 0;
+    for (const Part& alone : surfaces_of(parts[p], dimensions)) {
+      if (dimensions == 2) {
+        for (WallTriangle& wall : ribbons(alone.outline, 2 * spacing, owner)) {
+          wall.surface = surface;
+          triangles.push_back(wall);
+        }
+      } else {
+        const TriangleMesh& mesh = alone.mesh;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+          triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), owner, surface});
+      }
+      ++surface;
     }
-    const TriangleMesh& mesh = parts[p].mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), owner});
   }
   return TriangleGrid(triangles, spacing, touching * spacing);
 }
@@ -181,12 +202,13 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
   }
 }
 
-/// Samples one part's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
-void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+/// Samples one surface's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
+void add_walls_of_surface(const Part& part, WallSource source, const OpenSpace& open, const TriangleGrid& grid, const Case& checked,
+                          Layout& layout) {
   const int dimensions = checked.dimensions;
   const std::vector<WallPatch> patches =
       dimensions == 2 ? sample_outline(part.outline, layout.spacing) : sample_mesh(part.mesh, layout.spacing);
-  std::vector<WallElement> walls = face_walls(patches, owner, open, grid, layout.spacing);
+  std::vector<WallElement> walls = face_walls(patches, source, open, grid, layout.spacing);
   if (dimensions == 2) {
     for (WallElement& wall : walls) {
       wall.area /= layout.spacing;                               // the ribbons' width
@@ -195,11 +217,19 @@ void add_walls_of(const Part& part, int owner, const OpenSpace& open, const Tria
   }
   layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
   const auto add = [&](const std::vector<WallPatch>& from, std::vector<Facet>& to) {
-    const std::vector<Facet> facets = face_facets(from, owner, open, grid, layout.spacing, dimensions);
+    const std::vector<Facet> facets = face_facets(from, source, open, grid, layout.spacing, dimensions);
     to.insert(to.end(), facets.begin(), facets.end());
   };
   add(dimensions == 2 ? whole_facets(part.outline, layout.spacing) : whole_facets(part.mesh), layout.facets);
   if (checked.numerics.walls.elements == WallElements::semi_analytical) add(patches, layout.triangles);
+}
+
+void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+  WallSource source{owner, 0};
+  for (const Part& surface : surfaces_of(part, checked.dimensions)) {
+    add_walls_of_surface(surface, source, open, grid, checked, layout);
+    ++source.surface;
+  }
 }
 
 /// All of the outside of what it is part of, as water all round that would wet it: `assembly` are the parts that move as it does.

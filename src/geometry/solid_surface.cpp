@@ -20,7 +20,7 @@ constexpr double on_plane = 1e-6, look_off = 1e-5;
 /// How often a closed mesh winds about points, by the triangles over them in a direction along which no mesh has its edges.
 class Windings {
  public:
-  explicit Windings(const TriangleMesh& mesh) : mesh_(mesh) {
+  explicit Windings(const TriangleMesh& mesh) : triangles_(mesh.triangles) {
     const Eigen::Quaterniond turn = Eigen::Quaterniond(0.83, 0.291, -0.377, 0.289).normalized();
     matrix_ = turn.toRotationMatrix();
     for (const Vector3d& vertex : mesh.vertices) turned_.push_back(matrix_ * vertex);
@@ -48,7 +48,7 @@ class Windings {
     if ((p.head<2>().array() < low_.array()).any() || (p.head<2>().array() > high_.array()).any()) return 0;
     int number = 0;
     for (const int t : cells_[cell(p.head<2>(), 1) * count_ + cell(p.head<2>(), 0)]) {
-      const Vector3i& corners = mesh_.triangles[t];
+      const Vector3i& corners = triangles_[t];
       double side[3], sum = 0;
       bool left = true, right = true;
       for (int k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ class Windings {
     return width > 0 ? std::clamp(static_cast<int>((place[axis] - low_[axis]) / width * count_), 0, count_ - 1) : 0;
   }
 
-  const TriangleMesh& mesh_;
+  std::vector<Vector3i> triangles_;
   Eigen::Matrix3d matrix_;
   std::vector<Vector3d> turned_;
   Eigen::Vector2d low_, high_;
@@ -251,6 +251,53 @@ class Splitter {
 };
 
 }  // namespace
+
+std::vector<TriangleMesh> closed_surfaces(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, std::vector<int>> at_edge;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) at_edge[std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])].push_back(static_cast<int>(t));
+  std::vector<int> root(mesh.triangles.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int t) {
+    while (root[t] != t) t = root[t] = root[root[t]];
+    return t;
+  };
+  for (const auto& [edge, around] : at_edge)
+    if (around.size() == 2) root[find(around[0])] = find(around[1]);
+  std::map<int, TriangleMesh> by_root;
+  std::map<int, std::map<std::pair<int, int>, int>> balance;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int own = find(static_cast<int>(t));
+    by_root[own].triangles.push_back(mesh.triangles[t]);
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      balance[own][std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  std::vector<TriangleMesh> surfaces;
+  for (auto& [own, surface] : by_root) {
+    for (const auto& [edge, count] : balance[own])
+      if (count != 0) return {};
+    std::map<int, int> index;  // only the vertices that it has
+    surface.name = mesh.name;
+    for (Vector3i& triangle : surface.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const auto [entry, is_new] = index.emplace(triangle[k], static_cast<int>(surface.vertices.size()));
+        if (is_new) surface.vertices.push_back(mesh.vertices[triangle[k]]);
+        triangle[k] = entry->second;
+      }
+    surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
+
+class SolidTest::Windings : public wavetank::Windings {
+  using wavetank::Windings::Windings;
+};
+SolidTest::SolidTest(const TriangleMesh& closed) : windings_(std::make_unique<Windings>(closed)) {}
+SolidTest::~SolidTest() = default;
+SolidTest::SolidTest(SolidTest&&) noexcept = default;
+bool SolidTest::holds(const Vector3d& point) const { return windings_->about(point) > 0; }
 
 std::vector<SurfacePiece> solid_surface(const TriangleMesh& closed) {
   if (closed.triangles.empty()) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 namespace wavetank {
 namespace {
@@ -43,8 +44,8 @@ struct Facing {
 
 class Facer {
  public:
-  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing, int owner)
-      : open_(open), grid_(grid), spacing_(spacing), owner_(owner) {}
+  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing, WallSource source)
+      : open_(open), grid_(grid), spacing_(spacing), source_(source) {}
 
   /// The part of the patch that fluid on the side of its pieces' normals (times `sign`) wets.
   Facing face(const WallPatch& patch, double sign) const {
@@ -111,7 +112,7 @@ class Facer {
     return false;
   }
 
-  /// Whether it is another body's that lies in its plane. Water is before both, so both are behind it, and one of them is enough.
+  /// Whether it is another solid's that lies in its plane. Water is before both, so both are behind it, and one of them is enough.
   bool covered(const Vector3d& centre, const Vector3d& to_fluid) const {
     const Vector3d margin = Vector3d::Constant(grid_.tolerance());
     for (const int t : grid_.overlapping({centre - margin, centre + margin})) {
@@ -123,9 +124,9 @@ class Facer {
     return false;
   }
 
-  /// Of two bodies whose faces lie on each other the first one keeps its own.
+  /// Of two solids whose faces lie on each other the first one keeps its own.
   bool comes_first(const WallTriangle& other, const Vector3d& normal, double level) const {
-    if (other.owner == 0 || other.owner >= owner_) return false;
+    if (other.owner == 0 || std::pair(other.owner, other.surface) >= std::pair(source_.owner, source_.surface)) return false;
     return std::abs(normal.dot(other.a) - level) <= grid_.tolerance() && std::abs(normal.dot(other.b) - level) <= grid_.tolerance() &&
            std::abs(normal.dot(other.c) - level) <= grid_.tolerance();
   }
@@ -224,7 +225,7 @@ class Facer {
   const OpenSpace& open_;
   const TriangleGrid& grid_;
   double spacing_;
-  int owner_;
+  WallSource source_;
 };
 
 struct Unfinished {
@@ -299,9 +300,9 @@ Facet segment_of(const Polygon& ribbon, const Vector3d& along) {
 
 }  // namespace
 
-std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
+std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, WallSource source, const OpenSpace& open, const TriangleGrid& grid,
                                double spacing, int dimensions) {
-  const Facer facer(open, grid, spacing, owner);
+  const Facer facer(open, grid, spacing, source);
   std::vector<Facet> facets;
   for (const WallPatch& patch : patches) {
     for (const Polygon& piece : patch.pieces) {
@@ -316,7 +317,7 @@ std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner,
           if (dimensions == 2) facet = segment_of(part, patch.tangent);
           facet.normal = -sign * turn * plane_normal;
           facet.plane_point = has_plane ? patch.plane_point : piece[0];
-          facet.owner = owner;
+          facet.owner = source.owner;
           if (dimensions == 2) {
             facet.normal.y() = 0;
             facets.push_back(facet);
@@ -355,9 +356,9 @@ std::vector<Facet> facets_of(const WallElement& element, int dimensions) {
   return result;
 }
 
-std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
-                                    double spacing) {
-  const Facer facer(open, grid, spacing, owner);
+std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, WallSource source, const OpenSpace& open,
+                                    const TriangleGrid& grid, double spacing) {
+  const Facer facer(open, grid, spacing, source);
   std::vector<Unfinished> elements;
   Vector3d origin = Vector3d::Zero();
   if (!patches.empty()) origin = patches.front().pieces.front().front();
@@ -381,7 +382,7 @@ std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int o
     wall.normal = element.facing.flux / wall.area;
     wall.centre += (element.facing.divergence / wall.area - wall.centre.dot(wall.normal)) * wall.normal;
     wall.tangent = (element.tangent - wall.normal.dot(element.tangent) * wall.normal).normalized();
-    wall.owner = owner;
+    wall.owner = source.owner;
     fit_rectangle(wall, element.facing.corners);
     walls.push_back(wall);
   }

@@ -117,6 +117,30 @@ TEST(LayoutLinks, ThatAreFixedToEachOtherHaveTheSurfaceOfAll) {
         }
 }
 
+using SolidsOfOneMesh = GeometryTest;
+TEST_F(SolidsOfOneMesh, HaveTheSurfaceOfAll) {
+  for (const Links& links : all_links())
+    for (const int dimensions : {3, 2}) {
+      if (links.what == "inside" || links.what == "three of them") continue;  // in one mesh that is a cavity
+      Case checked = links_case({links.what, {}, 0, 0, 0, 0}, dimensions, Motion::free, 0, WallElements::semi_analytical);
+      TriangleMesh mesh;
+      for (const Box& box : links.boxes) append(mesh, box_mesh(box, false, ""));
+      MeshSource source;
+      source.uri = write("links.obj", mesh);
+      BodyCase body;
+      body.name = "links";
+      body.shape = source;
+      body.motion = Motion::free;
+      body.rigid.density = 500;
+      checked.bodies = {body};
+      const Layout layout = lay_out(checked);
+      const std::string what = links.what + ", " + std::to_string(dimensions) + "-D";
+      const double area = dimensions == 2 ? links.section_length : links.area, volume = dimensions == 2 ? links.section : links.volume;
+      expect_surface(facet_sums(layout.facets, dimensions), area, volume, what + ", facets");
+      expect_surface(facet_sums(layout.triangles, dimensions), area, volume, what + ", triangles");
+    }
+}
+
 TEST(LayoutLinks, WhollyInsideHaveNoWallsAndTheHullKeepsItsOwn) {
   const Layout layout = lay_out(links_case(all_links().front(), 3, Motion::free, 0, WallElements::facet));
   for (const Facet& facet : layout.facets) EXPECT_NE(facet.owner, 2);

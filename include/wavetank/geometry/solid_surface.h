@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "wavetank/geometry/mesh.h"
@@ -16,5 +17,21 @@ struct SurfacePiece {
 /// its triangles, cut where others cross them, each with its share. What lies within a cavity, wound inwards, is outside. Pieces narrower
 /// than 1e-5 of the mesh's size may be wrong. Empty where nothing overlaps or touches: the triangles themselves are that surface.
 std::vector<SurfacePiece> solid_surface(const TriangleMesh& closed);
+
+/// The surfaces of a closed mesh that hang together by edges of two triangles; none where one is not closed for itself.
+std::vector<TriangleMesh> closed_surfaces(const TriangleMesh& closed);
+
+/// Tells quickly, of many points, which are in a closed mesh. Of a point on its surface either may come out.
+class SolidTest {
+ public:
+  explicit SolidTest(const TriangleMesh& closed);
+  ~SolidTest();
+  SolidTest(SolidTest&&) noexcept;
+  bool holds(const Vector3d& point) const;
+
+ private:
+  class Windings;
+  std::unique_ptr<Windings> windings_;
+};
 
 }  // namespace wavetank
