@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assemblies.h"
 #include "fluid_filling.h"
 #include "instrument_checks.h"
 #include "mesh_topology.h"
@@ -10,6 +11,7 @@
 #include "wall_facing.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
+#include "wavetank/geometry/solid_surface.h"
 
 namespace wavetank {
 namespace {
@@ -19,7 +21,8 @@ constexpr double touching = 1e-4;  // of the spacing: a way that comes so near t
 /// One part of the case: the tank or a body, before the spacing is known.
 struct Part {
   TriangleMesh mesh;
-  Outline outline;  ///< in 2-D
+  Outline outline;                     ///< in 2-D
+  std::vector<TriangleMesh> surfaces;  ///< where solids of the mesh touch or overlap: those that it is made of
 };
 
 Box bounds_of(const Part& part, int dimensions) { return dimensions == 2 ? bounding_box(part.outline) : part.mesh.bounding_box(); }
@@ -74,6 +77,7 @@ Part read_body(const BodyCase& body, const Case& checked, const ResourceResolver
   } else {
     part.mesh = read_mesh(std::get<MeshSource>(body.shape), checked.directory, resolve);
     check_closed(part.mesh);
+    if (!solid_surface(part.mesh).empty()) part.surfaces = closed_surfaces(part.mesh);
     if (checked.dimensions == 2) part.outline = cut_mesh(part.mesh);
   }
   return part;
@@ -88,20 +92,38 @@ std::vector<Part> read_parts(const Case& checked, const ResourceResolver& resolv
   return parts;
 }
 
+/// Each surface of a part for itself, in a fixed order.
+std::vector<Part> surfaces_of(const Part& part, int dimensions) {
+  std::vector<Part> surfaces;
+  if (dimensions == 2) {
+    for (const Polyline& line : part.outline) surfaces.push_back({{}, {line}, {}});
+  } else {
+    for (const TriangleMesh& mesh : part.surfaces) surfaces.push_back({mesh, {}, {}});
+  }
+  if (surfaces.size() < 2) return {part};
+  return surfaces;
+}
+
 /// Of the parts that are wanted; empty = all.
 TriangleGrid make_grid(const std::vector<Part>& parts, int dimensions, double spacing, const std::vector<bool>& wanted = {}) {
   std::vector<WallTriangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (!wanted.empty() && !wanted[p]) continue;
     const int owner = static_cast<int>(p);
-    if (dimensions == 2) {
-      const std::vector<WallTriangle> wall = ribbons(parts[p].outline, 2 * spacing, owner);
-      triangles.insert(triangles.end(), wall.begin(), wall.end());
-      continue;
+    int surface = 0;
+    for (const Part& alone : surfaces_of(parts[p], dimensions)) {
+      if (dimensions == 2) {
+        for (WallTriangle& wall : ribbons(alone.outline, 2 * spacing, owner)) {
+          wall.surface = surface;
+          triangles.push_back(wall);
+        }
+      } else {
+        const TriangleMesh& mesh = alone.mesh;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+          triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), owner, surface});
+      }
+      ++surface;
     }
-    const TriangleMesh& mesh = parts[p].mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), owner});
   }
   return TriangleGrid(triangles, touching * spacing);
 }
@@ -184,14 +206,14 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
   }
 }
 
-/// Samples one part's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
+/// Samples one surface's walls where `open`, the space about it, wets them; `grid` has what may stand before them.
 /// `within`: what lies outside of it is not wetted.
-void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, const Box& within,
-                  Layout& layout) {
+void add_walls_of_surface(const Part& part, WallSource source, const OpenSpace& open, const TriangleGrid& grid, const Case& checked,
+                          const Box& within, Layout& layout) {
   const int dimensions = checked.dimensions;
   const std::vector<WallPatch> patches =
       dimensions == 2 ? sample_outline(part.outline, layout.spacing, within) : sample_mesh(part.mesh, layout.spacing, within);
-  std::vector<WallElement> walls = face_walls(patches, owner, open, grid, layout.spacing);
+  std::vector<WallElement> walls = face_walls(patches, source, open, grid, layout.spacing);
   if (dimensions == 2) {
     for (WallElement& wall : walls) {
       wall.area /= layout.spacing;                               // the ribbons' width
@@ -200,19 +222,35 @@ void add_walls_of(const Part& part, int owner, const OpenSpace& open, const Tria
   }
   layout.walls.insert(layout.walls.end(), walls.begin(), walls.end());
   const auto add = [&](const std::vector<WallPatch>& from, std::vector<Facet>& to) {
-    const std::vector<Facet> facets = face_facets(from, owner, open, grid, layout.spacing, dimensions);
+    const std::vector<Facet> facets = face_facets(from, source, open, grid, layout.spacing, dimensions);
     to.insert(to.end(), facets.begin(), facets.end());
   };
   add(dimensions == 2 ? whole_facets(part.outline, layout.spacing) : whole_facets(part.mesh), layout.facets);
   if (checked.numerics.walls.elements == WallElements::semi_analytical) add(patches, layout.triangles);
 }
 
-/// All of its outside, as water all round it would wet it.
-void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const Case& checked, Layout& layout) {
-  std::vector<bool> alone(parts.size(), false);
-  alone[p] = true;
-  const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, alone);
+void add_walls_of(const Part& part, int owner, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, const Box& within,
+                  Layout& layout) {
+  WallSource source{owner, 0};
+  for (const Part& surface : surfaces_of(part, checked.dimensions)) {
+    add_walls_of_surface(surface, source, open, grid, checked, within, layout);
+    ++source.surface;
+  }
+}
+
+/// All of the outside of what it is part of, as water all round that would wet it: `assembly` are the parts that move as it does.
+void add_moving_walls(const std::vector<Part>& parts, std::size_t p, const std::vector<bool>& assembly, const Case& checked,
+                      Layout& layout) {
+  const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing, assembly);
   Box room = bounds_of(parts[p], checked.dimensions);
+  const Box own = room;
+  for (std::size_t other = 0; other < parts.size(); ++other) {
+    if (!assembly[other]) continue;
+    const Box box = bounds_of(parts[other], checked.dimensions);
+    if ((box.min.array() > own.max.array()).any() || (box.max.array() < own.min.array()).any()) continue;
+    room.min = room.min.cwiseMin(box.min);
+    room.max = room.max.cwiseMax(box.max);
+  }
   Vector3d margin = Vector3d::Constant(3 * layout.spacing);
   if (checked.dimensions == 2) margin.y() = 0;
   room.min -= margin;
@@ -244,14 +282,18 @@ void check_sizes(const Case& checked, const std::vector<Part>& parts, const Layo
   }
 }
 
-void add_walls(const std::vector<Part>& parts, const OpenSpace& open, const TriangleGrid& grid, const Case& checked, Layout& layout) {
+void add_walls(const std::vector<Part>& parts, const std::vector<int>& assemblies, const OpenSpace& open, const TriangleGrid& grid,
+               const Case& checked, Layout& layout) {
   const Vector3d margin = Vector3d::Constant(2 * layout.spacing);
   const Box near{layout.domain.min - margin, layout.domain.max + margin};
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (layout.moving[p])
-      add_moving_walls(parts, p, checked, layout);
-    else
+    if (!layout.moving[p]) {
       add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, near, layout);
+      continue;
+    }
+    std::vector<bool> assembly(parts.size());
+    for (std::size_t other = 1; other < parts.size(); ++other) assembly[other] = assemblies[other] == assemblies[p];
+    add_moving_walls(parts, p, assembly, checked, layout);
   }
 }
 
@@ -294,13 +336,15 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
   add_particles(regions, layout);
   if (layout.particles.empty()) throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
 
+  const std::vector<int> assemblies = rigid_assemblies(checked);
   std::vector<bool> standing = layout.moving;
   standing.flip();
+  for (std::size_t p = 1; p < parts.size(); ++p) standing[p] = standing[p] || assemblies[p] == 0;
   const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);
   OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all);
   open.flood(layout.particles);
   layout.open_top = open.open_top();
-  add_walls(parts, open, standing_grid, checked, layout);
+  add_walls(parts, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);

@@ -10,7 +10,8 @@ namespace wavetank {
 /// A triangle of any wall. In 2-D walls are ribbons of triangles across the x–z plane.
 struct WallTriangle {
   Vector3d a, b, c;
-  int owner = 0;  ///< 0 the tank, 1 + i body i
+  int owner = 0;    ///< 0 the tank, 1 + i body i
+  int surface = 0;  ///< of the owner's, where several solids of one mesh touch
 };
 
 /// Which walls a query is about.

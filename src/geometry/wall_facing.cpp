@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "slow_work.h"
 
@@ -45,7 +46,8 @@ struct Facing {
 
 class Facer {
  public:
-  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing) : open_(open), grid_(grid), spacing_(spacing) {}
+  Facer(const OpenSpace& open, const TriangleGrid& grid, double spacing, WallSource source)
+      : open_(open), grid_(grid), spacing_(spacing), source_(source) {}
 
   /// The part of the patch that fluid on the side of its pieces' normals (times `sign`) wets.
   Facing face(const WallPatch& patch, double sign) const {
@@ -107,9 +109,28 @@ class Facer {
     // At a sharp edge another face may pass between the piece and the place in front of it.
     if (grid_.crosses(centre + 3 * grid_.tolerance() * to_fluid, from)) return false;
     for (const double ahead : {0.6, 1.0, 0.3}) {
-      if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return true;
+      if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return !covered(centre, to_fluid);
     }
     return false;
+  }
+
+  /// Whether it is another solid's that lies in its plane. Water is before both, so both are behind it, and one of them is enough.
+  bool covered(const Vector3d& centre, const Vector3d& to_fluid) const {
+    const Vector3d margin = Vector3d::Constant(grid_.tolerance());
+    for (const int t : grid_.overlapping({centre - margin, centre + margin})) {
+      const WallTriangle& other = grid_.triangles()[t];
+      if (comes_first(other, to_fluid, to_fluid.dot(centre)) &&
+          (nearest_on_triangle(centre, other.a, other.b, other.c) - centre).norm() <= grid_.tolerance())
+        return true;
+    }
+    return false;
+  }
+
+  /// Of two solids whose faces lie on each other the first one keeps its own.
+  bool comes_first(const WallTriangle& other, const Vector3d& normal, double level) const {
+    if (other.owner == 0 || std::pair(other.owner, other.surface) >= std::pair(source_.owner, source_.surface)) return false;
+    return std::abs(normal.dot(other.a) - level) <= grid_.tolerance() && std::abs(normal.dot(other.b) - level) <= grid_.tolerance() &&
+           std::abs(normal.dot(other.c) - level) <= grid_.tolerance();
   }
 
   /// Lines in which other walls cross the plane just in front of the piece; each as two vectors: a point, and the normal of the plane
@@ -125,12 +146,19 @@ class Facer {
     bounds.max += margin;
     const double level = to_fluid.dot(piece[0]) + lift * spacing_;
     std::vector<std::pair<double, std::pair<Vector3d, Vector3d>>> found;  // length inside the piece, line
-    for (const int t : grid_.overlapping(bounds)) {
-      Vector3d from, to;
-      if (!section(grid_.triangles()[t], to_fluid, level, from, to)) continue;
+    const auto add = [&](const Vector3d& from, const Vector3d& to) {
       const Vector3d across = to_fluid.cross(to - from).normalized();
       const double inside = length_inside(piece, to_fluid, from, to);
       if (inside > 1e-6 * spacing_) found.push_back({inside, {from, across}});
+    };
+    for (const int t : grid_.overlapping(bounds)) {
+      Vector3d from, to;
+      const WallTriangle& other = grid_.triangles()[t];
+      if (section(other, to_fluid, level, from, to)) add(from, to);
+      if (!comes_first(other, to_fluid, to_fluid.dot(piece[0]))) continue;
+      add(other.a, other.b);
+      add(other.b, other.c);
+      add(other.c, other.a);
     }
     if (found.size() > most_cuts) {
       std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -199,6 +227,7 @@ class Facer {
   const OpenSpace& open_;
   const TriangleGrid& grid_;
   double spacing_;
+  WallSource source_;
 };
 
 struct Unfinished {
@@ -273,9 +302,9 @@ Facet segment_of(const Polygon& ribbon, const Vector3d& along) {
 
 }  // namespace
 
-std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
+std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, WallSource source, const OpenSpace& open, const TriangleGrid& grid,
                                double spacing, int dimensions) {
-  const Facer facer(open, grid, spacing);
+  const Facer facer(open, grid, spacing, source);
   std::vector<Facet> facets;
   SlowWork work("finding the wet facets of a wall");
   for (const WallPatch& patch : patches) {
@@ -292,7 +321,7 @@ std::vector<Facet> face_facets(const std::vector<WallPatch>& patches, int owner,
           if (dimensions == 2) facet = segment_of(part, patch.tangent);
           facet.normal = -sign * turn * plane_normal;
           facet.plane_point = has_plane ? patch.plane_point : piece[0];
-          facet.owner = owner;
+          facet.owner = source.owner;
           if (dimensions == 2) {
             facet.normal.y() = 0;
             facets.push_back(facet);
@@ -331,9 +360,9 @@ std::vector<Facet> facets_of(const WallElement& element, int dimensions) {
   return result;
 }
 
-std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int owner, const OpenSpace& open, const TriangleGrid& grid,
-                                    double spacing) {
-  const Facer facer(open, grid, spacing);
+std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, WallSource source, const OpenSpace& open,
+                                    const TriangleGrid& grid, double spacing) {
+  const Facer facer(open, grid, spacing, source);
   std::vector<Unfinished> elements;
   Vector3d origin = Vector3d::Zero();
   if (!patches.empty()) origin = patches.front().pieces.front().front();
@@ -359,7 +388,7 @@ std::vector<WallElement> face_walls(const std::vector<WallPatch>& patches, int o
     wall.normal = element.facing.flux / wall.area;
     wall.centre += (element.facing.divergence / wall.area - wall.centre.dot(wall.normal)) * wall.normal;
     wall.tangent = (element.tangent - wall.normal.dot(element.tangent) * wall.normal).normalized();
-    wall.owner = owner;
+    wall.owner = source.owner;
     fit_rectangle(wall, element.facing.corners);
     walls.push_back(wall);
   }

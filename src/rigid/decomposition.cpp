@@ -1,28 +1,30 @@
 #include "decomposition.h"
 
-#include <HACD/hacdHACD.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <set>
 
+#include "convex_cutting.h"
+#include "number_text.h"
 #include "section.h"
+#include "solids.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
 namespace {
 
-constexpr std::size_t many_triangles = 2000;  // HACD's time grows with the square of their number: 1 s here
-constexpr double scale = 1000;                // that HACD takes the mesh's diagonal to
+constexpr std::size_t many_triangles = 2000;  // more take seconds to cut
+constexpr double greatest_difference = 0.05;  // of the volume, lacking or added
 
-/// The mesh with the vertices of each cell of a grid taken together in one of them.
+/// The mesh with the vertices of each cell of a grid taken together in one of them. It stays closed.
 TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
   std::map<std::array<long, 3>, int> vertex_in;
   std::vector<int> kept(mesh.vertices.size());
   TriangleMesh coarse;
+  coarse.name = mesh.name;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     std::array<long, 3> key;
     for (int axis = 0; axis < 3; ++axis) key[axis] = std::lround(mesh.vertices[v][axis] / cell);
@@ -30,14 +32,16 @@ TriangleMesh coarsened(const TriangleMesh& mesh, double cell) {
     if (is_new) coarse.vertices.push_back(mesh.vertices[v]);
     kept[v] = entry->second;
   }
-  std::set<std::array<int, 3>> seen;
+  std::map<std::array<int, 3>, Vector3i> left;  // what lies on its own back cancels
   for (const Vector3i& triangle : mesh.triangles) {
     const Vector3i corners(kept[triangle[0]], kept[triangle[1]], kept[triangle[2]]);
     std::array<int, 3> sorted{corners[0], corners[1], corners[2]};
     std::sort(sorted.begin(), sorted.end());
-    const bool flat = sorted[0] == sorted[1] || sorted[1] == sorted[2];
-    if (!flat && seen.insert(sorted).second) coarse.triangles.push_back(corners);
+    if (sorted[0] == sorted[1] || sorted[1] == sorted[2]) continue;
+    const auto [entry, is_new] = left.emplace(sorted, corners);
+    if (!is_new) left.erase(entry);
   }
+  for (const auto& [sorted, corners] : left) coarse.triangles.push_back(corners);
   return coarse;
 }
 
@@ -107,43 +111,19 @@ Stretches within(const std::vector<ConvexHull>& parts, double x, double y) {
 }  // namespace
 
 std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, const HullPrecision& precision, const std::string& what) {
-  TriangleMesh coarse = mesh;
-  for (double cell = 0.25 * spacing; coarse.triangles.size() > many_triangles; cell *= 1.25) coarse = coarsened(mesh, cell);
-  std::vector<HACD::Vec3<HACD::Real>> points;
-  std::vector<HACD::Vec3<long>> triangles;
-  for (const Vector3d& v : coarse.vertices) points.emplace_back(v.x(), v.y(), v.z());
-  for (const Vector3i& t : coarse.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  const Box box = coarse.bounding_box();
-  HACD::HACD hacd;
-  hacd.SetPoints(points.data());
-  hacd.SetNPoints(points.size());
-  hacd.SetTriangles(triangles.data());
-  hacd.SetNTriangles(triangles.size());
-  hacd.SetCompacityWeight(1e-4);
-  hacd.SetVolumeWeight(0);
-  hacd.SetNClusters(1);
-  hacd.SetNVerticesPerCH(200);
-  hacd.SetScaleFactor(scale);
-  hacd.SetConcavity(scale * spacing / (box.max - box.min).norm());
-  hacd.SetConnectDist(0);
-  hacd.SetAddExtraDistPoints(true);
-  hacd.SetAddNeighboursDistPoints(true);
-  hacd.SetAddFacesPoints(true);
-  hacd.Compute();
   std::vector<ConvexHull> parts;
-  for (std::size_t c = 0; c < hacd.GetNClusters(); ++c) {
-    std::vector<HACD::Vec3<HACD::Real>> corners(hacd.GetNPointsCH(c));
-    std::vector<HACD::Vec3<long>> faces(hacd.GetNTrianglesCH(c));
-    hacd.GetCH(c, corners.data(), faces.data());
-    std::vector<Vector3d> vertices;
-    for (const auto& corner : corners) vertices.emplace_back(corner.X(), corner.Y(), corner.Z());
-    try {
-      parts.push_back(convex_hull(vertices, what, precision));
-    } catch (const Error&) {
-      // A patch of the surface that is flat by itself: what it lacks is counted in the difference of volume, and told.
-    }
+  for (const TriangleMesh& solid : solids_of(mesh)) {
+    TriangleMesh coarse = solid;
+    for (double cell = 0.1 * spacing; coarse.triangles.size() > many_triangles; cell *= 1.25) coarse = coarsened(solid, cell);
+    std::vector<ConvexHull> own = convex_parts(coarse, precision, what);
+    std::move(own.begin(), own.end(), std::back_inserter(parts));
   }
-  if (parts.empty()) throw Error(what + " falls into no convex parts; list them as parts for contacts, or choose the convex hull");
+  const VolumeDifference difference = volume_difference(mesh, parts, 3);
+  if (parts.empty() || difference.lacking > greatest_difference || difference.added > greatest_difference)
+    throw Error(what + " falls into no convex parts that hold the same within " + number_text(100 * greatest_difference) +
+                " % (they lack " + number_text(100 * difference.lacking) + " % of its volume and hold " +
+                number_text(100 * difference.added) +
+                " % more); list convex parts for contacts (collision: parts, collision_parts), or choose collision: convex_hull");
   return parts;
 }
 

@@ -8,8 +8,8 @@
 
 namespace wavetank {
 
-/// Convex parts that together come close to a closed mesh, hollows wider than a spacing kept open. Found by Bullet's HACD on the mesh, or
-/// where that has very many triangles on a coarser one with some of its vertices. `what` opens the message. Throws Error if there are none.
+/// Convex parts that together hold the same as a closed mesh, to 5 % of its volume: each of its solids is cut by planes, of very many
+/// triangles on a coarser mesh with some of its vertices. `what` opens the message. Throws Error if they do not.
 std::vector<ConvexHull> decompose(const TriangleMesh& mesh, double spacing, const HullPrecision& precision, const std::string& what);
 
 /// How parts differ from the closed mesh that they stand for, of the mesh's volume; in 2-D of its section's area.

@@ -8,12 +8,15 @@
 #include <optional>
 
 #include "number_text.h"
+#include "section.h"
 #include "wavetank/common/error.h"
+#include "wavetank/geometry/solid_surface.h"
 
 namespace wavetank {
 namespace {
 
 constexpr double next_to_nothing = 1e-9;     // of the volume of a cube, or the area of a square, as large as the mesh
+constexpr double counted_twice = 1e-6;       // of the area: what solids must have in common for it to be found otherwise
 constexpr double triangle_tolerance = 1e-3;  // inertias come rounded to a few digits, and a thin plate's fulfil the inequality just so
 
 using Edge = std::pair<int, int>;  // of the mesh, the lesser vertex first
@@ -60,6 +63,19 @@ double size_of(const TriangleMesh& mesh) {
 
 double least_area(const TriangleMesh& mesh) { return next_to_nothing * std::pow(size_of(mesh), 2); }
 
+/// Of the section's trapezoids, which count once what several solids have in common.
+std::vector<Segment> borders_of_bands(const TriangleMesh& mesh) {
+  std::vector<Segment> segments;
+  for (const std::vector<Vector3d>& band : section_bands(mesh))
+    for (std::size_t k = 0; k < band.size(); ++k) {
+      Segment segment;
+      segment.from = band[(k + 1) % band.size()];
+      segment.to = band[k];
+      segments.push_back(segment);
+    }
+  return segments;
+}
+
 /// By Green's theorem: a triangle from the mesh's middle to each segment.
 VolumeProperties properties_of(const std::vector<Segment>& segments, const TriangleMesh& mesh) {
   Vector3d middle = middle_of(mesh);
@@ -90,7 +106,9 @@ std::optional<VolumeProperties> section(const TriangleMesh& mesh, bool& closed) 
     std::map<Edge, int> balance;
     for (const Segment& segment : segments) ++balance[segment.from_edge], --balance[segment.to_edge];
     closed = std::all_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second == 0; });
-    return found;
+    if (!closed || found.volume < 0) return found;
+    const VolumeProperties once = properties_of(borders_of_bands(mesh), mesh);
+    return std::abs(once.volume - found.volume) > counted_twice * found.volume ? once : found;
   }
   return std::nullopt;
 }
@@ -161,14 +179,19 @@ VolumeProperties volume_properties(const TriangleMesh& closed) {
   VolumeProperties result;
   Vector3d moment = Vector3d::Zero();
   Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();  // ∫ x xᵀ dV
-  for (std::size_t t = 0; t < closed.triangles.size(); ++t) {
-    const Vector3d a = closed.corner(t, 0) - middle, b = closed.corner(t, 1) - middle, c = closed.corner(t, 2) - middle;
+  const auto add = [&](const Vector3d& first, const Vector3d& second, const Vector3d& third, double share) {
+    const Vector3d a = first - middle, b = second - middle, c = third - middle;
     const Vector3d sum = a + b + c;
-    const double volume = a.dot(b.cross(c)) / 6.0;
+    const double volume = share * a.dot(b.cross(c)) / 6.0;
     result.volume += volume;
     moment += volume / 4.0 * sum;
     second_moments += volume / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-  }
+  };
+  const std::vector<SurfacePiece> pieces = solid_surface(closed);
+  for (const SurfacePiece& piece : pieces)
+    for (std::size_t k = 2; k < piece.corners.size(); ++k) add(piece.corners[0], piece.corners[k - 1], piece.corners[k], piece.share);
+  if (pieces.empty())
+    for (std::size_t t = 0; t < closed.triangles.size(); ++t) add(closed.corner(t, 0), closed.corner(t, 1), closed.corner(t, 2), 1);
   if (std::abs(result.volume) <= next_to_nothing * std::pow(size_of(closed), 3)) return {0.0, middle, Eigen::Matrix3d::Zero()};
   const Vector3d centre = moment / result.volume;
   second_moments -= result.volume * centre * centre.transpose();

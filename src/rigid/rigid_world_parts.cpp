@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solids.h"
 #include "start_checks.h"
 #include "wavetank/common/error.h"
 
@@ -26,6 +27,24 @@ JointEnd end_of(const std::string& name, const std::string& joint, const Case& s
     return {owner, owner, owners[owner].reference};
   }
   throw Error("joint '" + joint + "' names '" + name + "', which is no body of the case; name one, tank or world");
+}
+
+bool passes_through(int a, int b, const std::vector<std::pair<int, int>>& apart) {
+  return std::any_of(apart.begin(), apart.end(),
+                     [&](const std::pair<int, int>& pair) { return pair == std::pair(a, b) || pair == std::pair(b, a); });
+}
+
+/// Whether another body that touches it starts in a closed cavity of a body.
+bool has_in_cavity(const Case& scene, const Layout& layout, std::size_t owner, const std::vector<std::pair<int, int>>& apart) {
+  const std::vector<TriangleMesh> cavities = cavities_of(layout.meshes[owner]);
+  if (cavities.empty()) return false;
+  for (std::size_t o = 1; o < layout.meshes.size(); ++o) {
+    const bool touches = o != owner && scene.bodies[o - 1].rigid.collision != CollisionShape::none &&
+                         !passes_through(static_cast<int>(o), static_cast<int>(owner), apart);
+    const auto is_in = [&](const TriangleMesh& cavity) { return inside(cavity, layout.meshes[o].vertices.front()); };
+    if (touches && std::any_of(cavities.begin(), cavities.end(), is_in)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -59,6 +78,9 @@ void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, c
     const Box box = layout.meshes[o].bounding_box();
     half_width = std::max({half_width, 0.5 * (box.max.x() - box.min.x()), 0.5 * (box.max.z() - box.min.z())});
   }
+  std::vector<std::pair<int, int>> apart;
+  for (const Joint& joint : joints)
+    if (joint.holds_together()) apart.emplace_back(joint.child().owner, joint.parent().owner);
   std::vector<ContactBody> bodies(owners.size());
   for (std::size_t o = 0; o < owners.size(); ++o) {
     const RigidCase& rigid = o == 0 ? scene.tank.rigid : scene.bodies[o - 1].rigid;
@@ -70,10 +92,18 @@ void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, c
     body.restitution = rigid.restitution;
     const bool as_listed = rigid.collision == CollisionShape::parts || rigid.collision == CollisionShape::none;
     body.as_walls = o == 0 ? !as_listed : !body.free && rigid.collision == CollisionShape::automatic;
+    // The fluid has no walls in cavities: what is in one touches convex parts.
+    const bool has_content = o > 0 && has_in_cavity(scene, layout, o, apart);
+    body.as_walls = body.as_walls && !has_content;
     if (body.as_walls) continue;
     ShapeRequest request;
     request.rigid = &rigid;
     request.mesh = &layout.meshes[o];
+    TriangleMesh without_cavities;
+    if (o > 0 && !has_content && dimensions == 3) {
+      without_cavities = filled_up(layout.meshes[o]);
+      request.mesh = &without_cavities;
+    }
     request.is_solid = o > 0;
     if (o > 0) request.source = std::get_if<MeshSource>(&scene.bodies[o - 1].shape);
     request.dimensions = dimensions;
@@ -83,9 +113,6 @@ void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, c
     request.what = owners[o].what;
     body.parts = make_shape(request, scene.directory, resolve);
   }
-  std::vector<std::pair<int, int>> apart;
-  for (const Joint& joint : joints)
-    if (joint.holds_together()) apart.emplace_back(joint.child().owner, joint.parent().owner);
   contacts = std::make_unique<ContactFinder>(std::move(bodies), layout, dimensions, half_width, std::move(apart));
 }
 

@@ -1,5 +1,6 @@
 #include "section.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,7 @@ constexpr double merge_excess = 1e-3;  // of their area: what the hull of bands 
 
 struct Segment {
   Vector3d left, right;  ///< by x
+  bool top = false;      ///< the mesh is below it
   double z(double x) const { return left.z() + (right.z() - left.z()) * (x - left.x()) / (right.x() - left.x()); }
 };
 
@@ -34,7 +36,8 @@ std::vector<Segment> cut(const TriangleMesh& mesh, bool plane_is_above) {
       if (above(triangle[k]) != above(triangle[(k + 1) % 3])) ends.push_back(crossing(triangle[k], triangle[(k + 1) % 3]));
     if (ends.size() != 2 || ends[0] == ends[1]) continue;
     if (ends[0].x() > ends[1].x()) std::swap(ends[0], ends[1]);
-    segments.push_back({ends[0], ends[1]});
+    const Vector3d &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    segments.push_back({ends[0], ends[1], (b - a).cross(c - a).z() > 0});
   }
   return segments;
 }
@@ -76,20 +79,38 @@ std::vector<Vector3d> plane_hull(std::vector<Vector3d> points) {
   return hull;
 }
 
-/// Between two abscissae the section is bands, each from one segment up to the next.
-std::vector<std::vector<Vector3d>> bands(const std::vector<Segment>& segments, double from, double to, const std::string& name) {
-  const double middle = 0.5 * (from + to);
-  std::vector<Segment> across;
-  for (const Segment& segment : segments)
-    if (segment.left.x() <= from && segment.right.x() >= to) across.push_back(segment);
-  std::sort(across.begin(), across.end(), [&](const Segment& a, const Segment& b) { return a.z(middle) < b.z(middle); });
-  if (across.size() % 2 != 0) throw Error("the section of mesh '" + name + "' with the plane y = 0 is not made of closed lines");
-  std::vector<std::vector<Vector3d>> result;
-  for (std::size_t k = 0; k + 1 < across.size(); k += 2) {
-    const Segment &low = across[k], &high = across[k + 1];
-    result.push_back({{from, 0, low.z(from)}, {to, 0, low.z(to)}, {to, 0, high.z(to)}, {from, 0, high.z(from)}});
+/// Where a line upwards is in the section, given what it crosses: pairs of what it goes in and out by. Solids that overlap count once.
+std::vector<std::pair<const Segment*, const Segment*>> within(std::vector<const Segment*> crossed, double x, const std::string& name) {
+  std::stable_sort(crossed.begin(), crossed.end(), [&](const Segment* a, const Segment* b) { return a->z(x) < b->z(x); });
+  std::vector<std::pair<const Segment*, const Segment*>> result;
+  int depth = 0;
+  for (const Segment* segment : crossed) {
+    depth += segment->top ? -1 : 1;
+    if (depth == 1 && !segment->top) result.emplace_back(segment, nullptr);
+    if (depth == 0 && segment->top && !result.empty()) result.back().second = segment;
   }
+  if (depth != 0) throw Error("the section of mesh '" + name + "' with the plane y = 0 is not made of closed lines");
+  result.erase(std::remove_if(result.begin(), result.end(), [](const auto& pair) { return pair.second == nullptr; }), result.end());
   return result;
+}
+
+/// Where the segments begin, end and cross.
+std::vector<double> abscissae_of(const std::vector<Segment>& segments) {
+  std::vector<double> places;
+  for (const Segment& segment : segments) {
+    places.push_back(segment.left.x());
+    places.push_back(segment.right.x());
+  }
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (std::size_t t = s + 1; t < segments.size(); ++t) {
+      const double from = std::max(segments[s].left.x(), segments[t].left.x()), to = std::min(segments[s].right.x(), segments[t].right.x());
+      if (!(from < to)) continue;
+      const double before = segments[s].z(from) - segments[t].z(from), after = segments[s].z(to) - segments[t].z(to);
+      if (before * after < 0) places.push_back(from + before / (before - after) * (to - from));
+    }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
 }
 
 }  // namespace
@@ -103,23 +124,25 @@ std::vector<Vector3d> section_points(const TriangleMesh& mesh) {
   return plane_hull(points);
 }
 
-std::vector<std::vector<Vector3d>> convex_polygons(const TriangleMesh& mesh) {
+std::vector<std::vector<Vector3d>> section_bands(const TriangleMesh& mesh) {
   const std::vector<Segment> segments = section(mesh);
-  std::vector<double> places;
-  for (const Segment& segment : segments) {
-    places.push_back(segment.left.x());
-    places.push_back(segment.right.x());
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  double whole = 0;
+  const std::vector<double> places = abscissae_of(segments);
   std::vector<std::vector<Vector3d>> all;
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
-    for (const std::vector<Vector3d>& band : bands(segments, places[k], places[k + 1], mesh.name)) {
-      all.push_back(band);
-      whole += area_of(band);
-    }
+    const double from = places[k], to = places[k + 1];
+    std::vector<const Segment*> crossed;
+    for (const Segment& segment : segments)
+      if (segment.left.x() <= from && segment.right.x() >= to) crossed.push_back(&segment);
+    for (const auto& [low, high] : within(crossed, 0.5 * (from + to), mesh.name))
+      all.push_back({{from, 0, low->z(from)}, {to, 0, low->z(to)}, {to, 0, high->z(to)}, {from, 0, high->z(from)}});
   }
+  return all;
+}
+
+std::vector<std::vector<Vector3d>> convex_polygons(const TriangleMesh& mesh) {
+  const std::vector<std::vector<Vector3d>> all = section_bands(mesh);
+  double whole = 0;
+  for (const std::vector<Vector3d>& band : all) whole += area_of(band);
   std::vector<std::vector<Vector3d>> merged;
   std::vector<double> own_areas;  // of the bands in each, so that what many merges add is bounded, not what each of them does
   for (const std::vector<Vector3d>& band : all) {
@@ -147,12 +170,11 @@ std::vector<std::vector<std::pair<double, double>>> section_along(const Triangle
   const std::vector<Segment> segments = section(mesh);
   std::vector<std::vector<std::pair<double, double>>> lines;
   for (const double x : abscissae) {
-    std::vector<double> crossings;
+    std::vector<const Segment*> crossed;
     for (const Segment& segment : segments)
-      if (segment.left.x() <= x && segment.right.x() > x) crossings.push_back(segment.z(x));
-    std::sort(crossings.begin(), crossings.end());
+      if (segment.left.x() <= x && segment.right.x() > x) crossed.push_back(&segment);
     lines.emplace_back();
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) lines.back().emplace_back(crossings[k], crossings[k + 1]);
+    for (const auto& [low, high] : within(crossed, x, mesh.name)) lines.back().emplace_back(low->z(x), high->z(x));
   }
   return lines;
 }

@@ -5,7 +5,8 @@
 namespace wavetank {
 
 std::vector<Box> owner_boxes(const Layout& layout, const std::vector<Vector3d>& centres) {
-  std::vector<Box> boxes(centres.size(), Box{centres[0], centres[0]});
+  std::vector<Box> boxes;
+  for (const Vector3d& centre : centres) boxes.push_back({centre, centre});  // of one that has no walls
   std::vector<bool> found(centres.size(), false);
   for (const Facet& facet : layout.facets) {
     Box& box = boxes.at(facet.owner);

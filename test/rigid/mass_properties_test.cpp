@@ -131,6 +131,93 @@ TEST(VolumeProperties, FarFromTheOriginLoseNoDigits) {
   EXPECT_LT((found.inertia - box_inertia(size)).norm(), rounding * box_inertia(size).norm());
 }
 
+/// Of boxes of density 1, by signed terms that count once what they have in common.
+VolumeProperties sum_of_boxes(const std::vector<std::pair<double, Box>>& terms) {
+  VolumeProperties sum;
+  Vector3d moment = Vector3d::Zero();
+  for (const auto& [sign, box] : terms) {
+    const Vector3d size = box.max - box.min;
+    sum.volume += sign * size.prod();
+    moment += sign * size.prod() * 0.5 * (box.min + box.max);
+  }
+  sum.centre = moment / sum.volume;
+  for (const auto& [sign, box] : terms) {
+    const Vector3d size = box.max - box.min, arm = 0.5 * (box.min + box.max) - sum.centre;
+    sum.inertia += sign * (box_inertia(size) + size.prod() * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose()));
+  }
+  return sum;
+}
+
+/// Bars that cross, solids that touch, that hold one another, or lie on each other, each with what it is in boxes that count once.
+struct Joined {
+  std::string what;
+  std::vector<Box> solids, cavities;
+  std::vector<std::pair<double, Box>> once;
+};
+std::vector<Joined> joined_solids() {
+  const Box bar{{-0.2, -0.05, -0.05}, {0.2, 0.05, 0.05}}, across{{-0.05, -0.2, -0.05}, {0.05, 0.2, 0.05}},
+      post{{-0.03, -0.04, -0.3}, {0.07, 0.03, 0.2}}, cube{{0, -0.5, 0}, {1, 0.5, 1}}, next{{1, -0.5, 0}, {2, 0.5, 1}},
+      foot{{1, -0.3, 0.2}, {2, 0.1, 0.7}}, further{{0.5, -0.5, 0}, {1.5, 0.5, 1}}, within{{0.2, -0.3, 0.2}, {0.8, 0.3, 0.8}},
+      flush{{0, -0.3, 0.2}, {0.8, 0.3, 0.8}}, pin{{0.4, -0.1, 0.4}, {0.6, 0.1, 1.5}}, inner_pin{{0.4, -0.1, 0.4}, {0.6, 0.1, 0.8}},
+      outer_pin{{0.4, -0.1, 1}, {0.6, 0.1, 1.5}};
+  return {{"bars that cross in one plane", {bar, across}, {}, {{1, bar}, {1, across}, {-1, {{-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}}}}},
+          {"bars that cross", {bar, post}, {}, {{1, bar}, {1, post}, {-1, {{-0.03, -0.04, -0.05}, {0.07, 0.03, 0.05}}}}},
+          {"cubes side by side", {cube, next}, {}, {{1, cube}, {1, next}}},
+          {"a foot on a cube", {cube, foot}, {}, {{1, cube}, {1, foot}}},
+          {"cubes that overlap", {cube, further, next}, {}, {{1, cube}, {1, next}}},
+          {"a cube in a cube", {cube, within}, {}, {{1, cube}}},
+          {"a cube flush in a cube", {cube, flush}, {}, {{1, cube}}},
+          {"a cube twice", {cube, cube}, {}, {{1, cube}}},
+          {"a cavity", {cube}, {within}, {{1, cube}, {-1, within}}},
+          {"a pin through the wall of a cavity", {cube, pin}, {within}, {{1, cube}, {-1, within}, {1, inner_pin}, {1, outer_pin}}}};
+}
+
+TEST(VolumeProperties, CountOnceWhatSolidsHaveInCommon) {
+  for (const Joined& joined : joined_solids())
+    for (const bool tilted : {false, true}) {
+      TriangleMesh mesh;
+      for (const Box& solid : joined.solids) append(mesh, box_mesh(solid, false, ""));
+      for (const Box& cavity : joined.cavities) {
+        TriangleMesh hole = box_mesh(cavity, false, "");
+        turn_over(hole);
+        append(mesh, hole);
+      }
+      VolumeProperties right = sum_of_boxes(joined.once);
+      if (tilted) {  // and rounded, as float32 files have it
+        const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+        for (Vector3d& vertex : mesh.vertices) vertex = (turn * vertex).cast<float>().cast<double>();
+        right.centre = turn * right.centre;
+        right.inertia = turn * right.inertia * turn.transpose();
+      }
+      const VolumeProperties found = volume_properties(mesh);
+      const double tolerance = tilted ? 1e-6 : 1e-12;
+      EXPECT_NEAR(found.volume, right.volume, tolerance * right.volume) << joined.what << (tilted ? ", tilted" : "");
+      EXPECT_LT((found.centre - right.centre).norm(), tolerance) << joined.what << (tilted ? ", tilted" : "");
+      EXPECT_LT((found.inertia - right.inertia).norm(), 3 * tolerance * right.inertia.norm()) << joined.what << (tilted ? ", tilted" : "");
+    }
+}
+
+TEST(VolumeProperties, OfBallsThatOverlap) {
+  const double apart = 0.8;
+  const TriangleMesh ball = icosphere(4);
+  TriangleMesh both = ball, other = ball;
+  for (Vector3d& vertex : other.vertices) vertex.x() += apart;
+  append(both, other);
+  const double one = 4 * M_PI / 3, lens = M_PI / 12 * (4 + apart) * std::pow(2 - apart, 2), lack = 1 - volume_properties(ball).volume / one;
+  const VolumeProperties found = volume_properties(both);
+  EXPECT_NEAR(found.volume, 2 * one - lens, 1.2 * lack * (2 * one - lens)) << "lack of a ball: " << lack;
+  EXPECT_LT((found.centre - Vector3d(0.5 * apart, 0, 0)).norm(), 1e-3);
+}
+
+TEST(AreaProperties, CountOnceWhatSolidsHaveInCommon) {
+  TriangleMesh mesh = box({-0.2, -0.05, -0.05}, {0.2, 0.05, 0.05});
+  append(mesh, box({-0.03, -0.02, -0.3}, {0.07, 0.03, 0.2}));
+  const VolumeProperties found = area_properties(mesh);
+  const double area = 0.04 + 0.05 - 0.01;
+  EXPECT_NEAR(found.volume, area, 1e-12);
+  EXPECT_LT((found.centre - Vector3d(0.02 * 0.05 - 0.02 * 0.01, 0, -0.05 * 0.05) / area).norm(), 1e-12);
+}
+
 TEST(AreaProperties, OfABoxesSectionWhereverItsWidthLies) {
   const double a = 0.4, c = 2.3;
   const Vector3d low(1, 0, -3);

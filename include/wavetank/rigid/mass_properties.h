@@ -14,10 +14,11 @@ struct VolumeProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< m⁵ (2-D: m⁴, only yy), about the centre
 };
 
-/// By the divergence theorem over tetrahedra about the mesh's middle; exact up to rounding.
+/// By the divergence theorem over tetrahedra about the mesh's middle; exact up to rounding. Where solids of the mesh overlap or touch, what
+/// they have in common counts once, exact to some 1e-5.
 VolumeProperties volume_properties(const TriangleMesh& closed);
-/// Of the mesh's section with the plane y = 0; a face that lies in the plane is the section of a mesh that only touches it. Throws Error if
-/// they do not meet.
+/// Of the mesh's section with the plane y = 0, where what several solids have in common counts once; a face that lies in the plane is the
+/// section of a mesh that only touches it. Throws Error if they do not meet.
 VolumeProperties area_properties(const TriangleMesh& closed);
 
 /// What rigid-body dynamics needs, with the case's own values in place of those computed.
