@@ -51,7 +51,7 @@ TEST(CaseSize, OfTankWaterAndBodies) {
 
 TEST(CaseSize, InTwoDimensionsIsPerMetre) {
   Case scene = box_case(Vector3d(1, 0, 0.6), 0.3, 0.02);
-  scene.bodies = {box_body("raft", {0.2, 0.1, 0.26}, {0.6, 0.2, 0.34}, 250)};
+  scene.bodies = {box_body("raft", {0.2, -0.1, 0.26}, {0.6, 0.2, 0.34}, 250)};
   const CaseSize size = size_of_case(scene);
   EXPECT_NEAR(size.owners[0].volume, 0.6, 1e-9);
   EXPECT_NEAR(size.owners[1].volume, 0.032, 1e-9);
