@@ -8,7 +8,7 @@
 #include "bench_options.h"
 #include "bench_run.h"
 #include "wavetank/common/log.h"
-#include "whole_file.h"
+#include "wavetank/common/whole_file.h"
 
 namespace {
 
@@ -41,14 +41,14 @@ void print_start_up(const BenchOptions& options) {
 
 int run(const BenchOptions& options) {
   const std::vector<BenchCase> cases = chosen_cases(options.filters);
-  if (!options.json.empty()) check_writable(options.json);
+  if (!options.json.empty()) check_writable(options.json, "the report");
   const compute::DeviceInfo device = compute::choose_device(options.device);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const Report report = BenchRun(options, device, program, [] { return caught_signal != 0; }).run(cases);
   std::printf("%s", table_of(report).c_str());
-  if (!options.json.empty()) write_whole(options.json, json_of(report));
+  if (!options.json.empty()) write_whole(options.json, json_of(report), "the report");
   return report.interrupted ? exit_signal + caught_signal : 0;
 }
 

@@ -6,6 +6,7 @@
 #include "assemblies.h"
 #include "fluid_filling.h"
 #include "instrument_checks.h"
+#include "mesh_scale.h"
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wall_facing.h"
@@ -177,6 +178,17 @@ double volume_bound(const Case& checked, const Box& domain) {
   return volume;
 }
 
+/// A particle must fit into the tank: else a single one may stand for all of its water.
+void check_spacing(double spacing, const Box& domain, const Case& checked) {
+  const std::string given = checked.fluid.spacing ? "fluid/spacing is " : "fluid/particles gives a spacing of ";
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = domain.max[axis] - domain.min[axis];
+    if ((checked.dimensions == 2 && axis == 1) || spacing <= length * (1 + 1e-6)) continue;
+    throw Error(given + describe(spacing) + " m, larger than the tank, which is " + describe(length) + " m along " + "xyz"[axis] +
+                "; there must be several particles over the water's depth");
+  }
+}
+
 double choose_spacing(const Case& checked, const std::vector<Part>& parts, Basin basin) {
   if (checked.fluid.spacing) {
     if (!(*checked.fluid.spacing > 0)) throw Error("fluid/spacing must be positive");
@@ -314,15 +326,14 @@ void open_periodic_ends(const std::array<bool, 3>& periodic, Layout& layout) {
   }
 }
 
-}  // namespace
-
-Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
-  std::vector<Part> parts = read_parts(checked, resolve);
+/// Leaves the parts their meshes.
+Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   Layout layout;
   layout.domain = bounds_of(parts[0], checked.dimensions);
 
   Basin basin = make_basin(checked, parts, layout.domain);
   layout.spacing = choose_spacing(checked, parts, basin);
+  check_spacing(layout.spacing, layout.domain, checked);
   const TriangleGrid grid = make_grid(parts, checked.dimensions, layout.spacing);
   basin.grid = &grid;
   layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
@@ -348,6 +359,34 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);
+  return layout;
+}
+
+double depth_of(const Layout& layout) {
+  double deepest = 0, shallowest = layout.spacing;
+  for (std::size_t i = 0; i < layout.particles.size(); ++i) {
+    deepest = std::max(deepest, layout.levels[i] - layout.particles[i].z());
+    shallowest = std::min(shallowest, layout.levels[i] - layout.particles[i].z());
+  }
+  return deepest + shallowest;
+}
+
+}  // namespace
+
+Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
+  std::vector<Part> parts = read_parts(checked, resolve);
+  std::vector<const TriangleMesh*> meshes;
+  for (const Part& part : parts) meshes.push_back(&part.mesh);
+  const MeshScale scale(checked, meshes);
+  scale.check_bodies();
+  Layout layout;
+  try {
+    layout = lay_out_parts(checked, parts);
+  } catch (const Error& error) {  // whatever does not fit may do so for a mesh of the wrong size
+    throw Error(error.what() + scale.doubts());
+  }
+  const std::string doubts = scale.doubts_of_a_sound_case(depth_of(layout));
+  if (!doubts.empty()) log(LogLevel::warning, doubts);
 
   for (Part& part : parts) {
     layout.meshes.push_back(std::move(part.mesh));

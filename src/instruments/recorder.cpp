@@ -1,6 +1,7 @@
 #include "wavetank/instruments/recorder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace wavetank {
@@ -194,6 +195,21 @@ void Recorder::after_step(Solver& solver, double time, double next_time) {
       instrument.clock.tick();
     }
   }
+}
+
+double Recorder::seconds_a_step(Solver& solver, double time_step) const {
+  using Clock = std::chrono::steady_clock;
+  constexpr int readings = 5;
+  double seconds = 0;
+  for (const Instrument& instrument : instruments_) {
+    instrument.read(solver);  // the first launch of a kernel may still compile it
+    const Clock::time_point begin = Clock::now();
+    for (int k = 0; k < readings; ++k) instrument.read(solver);
+    const double reading = std::chrono::duration<double>(Clock::now() - begin).count() / readings;
+    const double steps_with_samples = std::min(instrument.clock.rate() * time_step, 1.0);
+    seconds += 2 * steps_with_samples * reading;  // before the step and after it
+  }
+  return seconds;
 }
 
 Samples Recorder::take() { return std::exchange(samples_, {}); }

@@ -3,49 +3,47 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace wavetank {
 namespace {
 
-/// Heights at which the vertical line through (x, y) meets the mesh.
-std::vector<double> crossings(const TriangleMesh& mesh, double x, double y) {
-  std::vector<double> heights;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
-    if (std::abs(area) < 1e-14) continue;  // upright: the line lies in it or misses it
-    const double beta = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
-    const double gamma = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
-    if (beta < -1e-9 || gamma < -1e-9 || beta + gamma > 1.0 + 1e-9) continue;
-    heights.push_back(a.z() + beta * (b.z() - a.z()) + gamma * (c.z() - a.z()));
+/// Where the vertical line through a place meets the tank's walls, upwards.
+struct Crossing {
+  double height = 0;
+  bool is_floor = false;  ///< water stands on it; else it hangs over water
+};
+
+/// Whether the line goes through a facet (2-D: a segment), whose plane is not upright, and at which height.
+std::optional<double> height_on(const Facet& facet, double x, double y, int dimensions) {
+  const Vector3d &a = facet.corners[0], &b = facet.corners[1], &c = facet.corners[2];
+  constexpr double hair = 1e-9;
+  if (dimensions == 2) {
+    const double run = b.x() - a.x();
+    if (std::abs(run) < 1e-14) return std::nullopt;
+    const double along = (x - a.x()) / run;
+    if (along < -hair || along > 1.0 + hair) return std::nullopt;
+    return a.z() + along * (b.z() - a.z());
   }
-  return heights;
+  const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
+  if (std::abs(area) < 1e-14) return std::nullopt;
+  const double beta = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
+  const double gamma = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / area;
+  if (beta < -hair || gamma < -hair || beta + gamma > 1.0 + hair) return std::nullopt;
+  return a.z() + beta * (b.z() - a.z()) + gamma * (c.z() - a.z());
 }
 
-/// The floor under a gauge: the lowest wall of the tank that bounds the open space from below. A tank with thick walls has its outer skin
-/// below that: a sampled wall element marks the wetted one.
-double floor_height(const Layout& layout, double x, double y) {
-  double floor = layout.domain.min.z();
-  double nearest = std::numeric_limits<double>::max();
-  std::vector<double> heights;
-  if (!layout.meshes.empty()) heights = crossings(layout.meshes[0], x, y);
-  for (const WallElement& wall : layout.walls) {
-    if (wall.owner != 0 || wall.normal.z() > -0.3) continue;
-    const double away = std::hypot(wall.centre.x() - x, wall.centre.y() - y);
-    if (away < nearest) {
-      nearest = away;
-      floor = wall.centre.z();
-    }
+std::vector<Crossing> crossings(const Layout& layout, double x, double y, int dimensions) {
+  std::vector<Crossing> found;
+  for (const Facet& facet : layout.facets) {
+    if (facet.owner != 0) continue;
+    if (const std::optional<double> height = height_on(facet, x, y, dimensions)) found.push_back({*height, facet.normal.z() < 0});
   }
-  // the mesh's own height there is exact where an element's centre beside the line, on a slope, is not
-  double best = std::numeric_limits<double>::max(), exact = floor;
-  for (const double height : heights)
-    if (std::abs(height - floor) < best) {
-      best = std::abs(height - floor);
-      exact = height;
-    }
-  return best < 2.0 * layout.spacing ? exact : floor;
+  std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.height < b.height; });
+  return found;
 }
+
+constexpr double standing = 0.5;  ///< of the kernel just over a floor: so full, water stands on it; less is a film or spray
 
 bool within(const Box& box, const Vector3d& point) {
   return (point.array() > box.min.array()).all() && (point.array() < box.max.array()).all();
@@ -69,14 +67,23 @@ WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& so
     Line line;
     line.begin = places_.size();
     const double y = scene.dimensions == 2 ? 0.0 : gauge.position.y();
-    line.floor = floor_height(layout, gauge.position.x(), y);
+    const std::vector<Crossing> walls = crossings(layout, gauge.position.x(), y, scene.dimensions);
+    const auto lowest = std::find_if(walls.begin(), walls.end(), [](const Crossing& wall) { return wall.is_floor; });
+    line.floor = lowest == walls.end() ? layout.domain.min.z() : lowest->height;
+    for (const Crossing& wall : walls)
+      if (wall.is_floor && wall.height > line.floor + 0.5 * interval_) line.shelves.push_back(wall.height);
     const int count = static_cast<int>(std::floor((layout.domain.max.z() - line.floor) / interval_)) + 1;
     for (int k = 0; k < count; ++k) {
       places_.emplace_back(gauge.position.x(), y, line.floor + k * interval_);
-      open_.push_back(std::none_of(fixed.begin(), fixed.end(), [&](const Solid& solid) { return contains(solid, places_.back()); }));
+      const double height = places_.back().z();
+      // above what hangs over water, up to the next floor, is the tank's own wall
+      const auto above = std::find_if(walls.begin(), walls.end(), [&](const Crossing& wall) { return wall.height > height; });
+      const bool in_wall = above != walls.begin() && !std::prev(above)->is_floor && above != walls.end() && above->is_floor;
+      open_.push_back(!in_wall &&
+                      std::none_of(fixed.begin(), fixed.end(), [&](const Solid& solid) { return contains(solid, places_.back()); }));
     }
     line.end = places_.size();
-    lines_.push_back(line);
+    lines_.push_back(std::move(line));
   }
   points_ = solver.make_points(places_);
 }
@@ -107,15 +114,26 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
     return std::min(values[k].filling / std::min(values[k].shepard, 1.0), 1.0);
   };
   for (const Line& line : lines_) {
+    // from the top down: water that stands on a body or a shelf is what the gauge sees, whatever is below
     double column = 0, above = 0, water_above = 0;
-    for (std::size_t k = line.end; k-- > line.begin;) {
-      // a body counts as water where water stands on it
+    std::optional<double> stood_on;
+    auto shelf = line.shelves.rbegin();
+    for (std::size_t k = line.end; !stood_on && k-- > line.begin;) {
+      const double height = places_[k].z();
+      for (; shelf != line.shelves.rend() && *shelf > height && !stood_on; ++shelf) {
+        column += std::max(height + interval_ - *shelf, 0.0) * above;
+        above = 0;
+        if (water_above > standing) stood_on = *shelf;
+      }
+      if (stood_on) break;
       if (open[k]) water_above = filling(k);
-      const double here = open[k] ? water_above : water_above > 0.5 ? 1.0 : 0.0;
+      const bool stands = !open[k] && water_above > standing;
+      const double here = open[k] ? water_above : stands ? 1.0 : 0.0;
       if (k + 1 < line.end) column += 0.5 * interval_ * (here + above);
       above = here;
+      if (stands) stood_on = height;
     }
-    levels.push_back(line.floor + column);
+    levels.push_back(stood_on.value_or(line.floor) + column);
   }
   return levels;
 }

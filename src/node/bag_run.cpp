@@ -1,14 +1,12 @@
 #include "wavetank/node/bag_run.h"
 
 #include <tf2_msgs/TFMessage.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include "wavetank/common/log.h"
+#include "wavetank/common/whole_file.h"
 #include "wavetank/node/clouds.h"
 #include "wavetank/node/markers.h"
 #include "wavetank/node/resources.h"
@@ -26,16 +24,6 @@ struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// A snapshot is written at the end of hours: a name that will not do is to be told at the beginning.
-void check_writable(const std::string& path) {
-  std::error_code ignored;
-  const fs::path parent = fs::path(path).parent_path();
-  const fs::path folder = parent.empty() ? fs::path(".") : parent;
-  if (fs::is_directory(path, ignored)) throw Error("cannot write snapshot '" + path + "': it is a folder; give the name of a file");
-  if (!fs::is_directory(folder, ignored)) throw Error("cannot write snapshot '" + path + "': there is no folder '" + folder.string() + "'");
-  if (access(folder.c_str(), W_OK) != 0) throw Error("cannot write snapshot '" + path + "': " + std::strerror(errno));
-}
-
 }  // namespace
 
 BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
@@ -44,7 +32,11 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
       case_(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})),
       progress_(Progress::fitting(options.quiet), 0.0, case_.duration) {
   check_names(case_);
-  if (!options_.save.empty()) check_writable(options_.save);
+  // a snapshot is written at the end of hours: a name that will not do is to be told at the beginning
+  if (!options_.save.empty()) check_writable(options_.save, "the snapshot");
+  const auto whole = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
+  if (!options_.save.empty() && !options_.bag.empty() && whole(options_.save) == whole(options_.bag))
+    throw Error("--bag and --save are both '" + options_.save + "'; give each a file of its own");
   if (!options_.bag.empty()) bag_ = std::make_unique<BagWriter>(options_.bag, "/wavetank");
 }
 
@@ -58,12 +50,20 @@ BagRun::Outcome BagRun::run() {
     return Outcome::interrupted;
   } catch (const Violation& violation) {
     progress_.clear();
+    if (!simulation_) throw;  // before the start: there is no state to save
     violation_ = violation.what();
+  } catch (const BagError& full) {
+    if (last_.step == first_.step) throw;  // there is nothing to keep yet
+    cut_short_ = full.what();
   }
   progress_.clear();
   finish();
   if (!options_.quiet) report();
-  if (!violation_.empty()) return Outcome::violated;
+  if (!violation_.empty()) {
+    if (!cut_short_.empty()) log(LogLevel::warning, cut_short_);
+    return Outcome::violated;
+  }
+  if (!cut_short_.empty()) throw Error(cut_short_);
   return interrupted_ != 0 ? Outcome::interrupted : Outcome::done;
 }
 
@@ -95,11 +95,11 @@ void BagRun::step_to_the_end() {
   while (last_.time < case_.duration - rounding && interrupted_ == 0) {
     try {
       simulation_->advance();
-    } catch (const Violation&) {
-      write_samples();
-      throw;
+    } catch (const Violation& violation) {
+      violation_ = violation.what();  // which counts whatever becomes of the bag
     }
     write_samples();
+    if (!violation_.empty()) return;
     progress_.running(last_.time, last_.step);
   }
   seconds_ = elapsed();
@@ -152,28 +152,88 @@ void BagRun::write_clouds() {
 
 void BagRun::finish() {
   if (!violation_.empty()) save_violation();
-  if (bag_) {
-    RunState run;
-    run.phase = violation_.empty() ? SolverStatus::FINISHED : SolverStatus::FAILED;
-    run.start_progress = 1.0;
-    run.device = device_;
-    run.failure = violation_;
-    bag_->write("status", clock_.at(last_.time), status_message(case_, last_, energies_, run, clock_));
+  if (bag_ && bag_->is_open()) finish_bag();
+  if (!violation_.empty()) return;
+  if (!cut_short_.empty())
+    save_what_is_left();
+  else if (!options_.save.empty())
+    save_at_end();
+}
+
+void BagRun::finish_bag() {
+  RunState run;
+  run.phase = violation_.empty() && cut_short_.empty() ? SolverStatus::FINISHED : SolverStatus::FAILED;
+  run.start_progress = 1.0;
+  run.device = device_;
+  run.failure = violation_.empty() ? cut_short_ : violation_;
+  try {
+    bag_->write_last("status", clock_.at(last_.time), status_message(case_, last_, energies_, run, clock_));
     bag_->finish();
+    bag_is_whole_ = true;
+  } catch (const BagError& error) {
+    cut_short_ = error.what();
   }
-  if (violation_.empty() && !options_.save.empty()) simulation_->save(options_.save);
+}
+
+/// A state that nobody asked for takes no other file's place.
+std::string BagRun::failure_snapshot() const {
+  const fs::path beside = options_.bag.empty() ? fs::path(options_.case_file).filename() : fs::path(options_.bag);
+  return free_path(fs::path(beside).replace_extension().string(), ".snapshot");
 }
 
 void BagRun::save_violation() {
-  const fs::path beside = options_.bag.empty() ? fs::path(options_.case_file).filename() : fs::path(options_.bag);
-  const std::string snapshot = fs::path(beside).replace_extension(".snapshot").string();
   try {
-    simulation_->save(snapshot);
-    violation_ += "; its state is in '" + snapshot + "'";
+    violation_ += "; its state is in '" + save_anywhere(failure_snapshot()) + "'";
   } catch (const Error& error) {
     log(LogLevel::warning, error.what());
   }
   log(LogLevel::error, violation_);
+}
+
+/// After the bag could not go on: adds to the sentence what there is to go on from.
+void BagRun::save_what_is_left() {
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g s", last_.time);
+  cut_short_ += std::string("; the run stops at ") + time;
+  if (bag_is_whole_) cut_short_ += ", and the bag has all samples until then";
+  try {
+    cut_short_ += "; its state is in '" + save_anywhere(options_.save.empty() ? failure_snapshot() : options_.save) +
+                  "', from which --restore goes on";
+  } catch (const Error& error) {
+    cut_short_ += std::string("; ") + error.what();
+  }
+}
+
+void BagRun::save_at_end() {
+  try {
+    const std::string path = save_anywhere(options_.save);
+    if (path != options_.save) cut_short_ = save_problem_ + "; it is in '" + path + "' instead";
+  } catch (const Error& error) {
+    cut_short_ = error.what();
+  }
+}
+
+/// Writes a snapshot there or, where that disk does not take it, in the working directory or the one for temporary files; returns where.
+std::string BagRun::save_anywhere(const std::string& wanted) {
+  try {
+    simulation_->save(wanted);
+    return wanted;
+  } catch (const Error& error) {
+    save_problem_ = error.what();
+  }
+  std::error_code ignored;
+  std::string tried;
+  for (const fs::path& folder : {fs::current_path(ignored), fs::temp_directory_path(ignored)}) {
+    const fs::path base = folder / fs::path(wanted).filename();
+    const std::string path = free_path(fs::path(base).replace_extension().string(), base.extension().string());
+    try {
+      simulation_->save(path);
+      return path;
+    } catch (const Error&) {
+      tried += (tried.empty() ? " nor in '" : " nor '") + folder.string() + "'";
+    }
+  }
+  throw Error(save_problem_ + "," + tried);
 }
 
 void BagRun::report() const {
@@ -185,8 +245,8 @@ void BagRun::report() const {
   if (simulated > 0) std::printf(", %.3g times the simulated", seconds_ / simulated);
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
-  if (bag_) std::printf("bag               %s\n", bag_->path().c_str());
-  if (!options_.save.empty() && violation_.empty()) std::printf("snapshot          %s\n", options_.save.c_str());
+  if (bag_is_whole_) std::printf("bag               %s\n", bag_->path().c_str());
+  if (!options_.save.empty() && violation_.empty() && cut_short_.empty()) std::printf("snapshot          %s\n", options_.save.c_str());
   if (!options_.profile) return;
   std::printf("\n%-32s %10s %12s %8s\n", "kernel", "launches", "seconds", "share");
   const std::vector<KernelTime> kernels = simulation_->kernel_times();

@@ -14,7 +14,8 @@ namespace {
 
 const char* const footer =
     "Ctrl-C ends the run after the step in progress; the bag is whole and readable then, and --save still writes.\n"
-    "Exit code: 0 done, 2 an error (one sentence on standard error), 3 the simulation was stopped by its watchdog\n"
+    "Exit code: 0 done, 2 an error (one sentence on standard error; where the disk is full it says where bag and snapshot\n"
+    "are, with all until then), 3 the simulation was stopped by its watchdog\n"
     "(a snapshot of it is written beside the bag), 130 ended by Ctrl-C, 143 by SIGTERM.\n"
     "Case keys: docs/case.md. Topics in the bag: docs/topics.md.";
 
@@ -55,7 +56,7 @@ RunOptions read_command_line(int argc, char** argv) {
   CLI::App app("wavetank_run: simulates a case without a ROS master and writes a bag.", "wavetank_run");
   app.footer(footer);
   app.add_option("CASE", options.case_file, "the case, a YAML file");
-  app.add_option("--bag,-b", options.bag, "write the samples to this bag (an older one is replaced)")->type_name("FILE");
+  app.add_option("--bag,-b", options.bag, "write the samples to this bag (an older plain file is replaced)")->type_name("FILE");
   app.add_flag("--clouds", options.clouds, "with the free surface's particles in the bag, at rate rates/cloud_bag");
   app.add_option("--duration", duration, "simulated time instead of the case's duration, s")->type_name("S");
   app.add_option("--set", shown_only, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")->type_name("KEY=VALUE");
@@ -64,7 +65,7 @@ RunOptions read_command_line(int argc, char** argv) {
   app.add_option("--save", options.save, "write a snapshot when the run ends")->type_name("FILE");
   app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");
   app.add_flag("--quiet,-q", options.quiet, "print nothing but warnings and errors");
-  app.add_flag("--check", check, "read and lay out the case, report its size and estimated time, run nothing");
+  app.add_flag("--check", check, "read and lay out the case, report sizes, masses, draughts and the estimated time, run nothing");
   app.add_flag("--list-devices", list_devices, "print the OpenCL devices of this machine");
   app.add_flag("--version", show_version, "print the version");
 

@@ -70,6 +70,7 @@ int TankNode::finish() {
   loop_->stop();
   const LoopStatus status = loop_->status();
   if (status.phase == LoopPhase::failed) return status.has_started ? exit_failed : exit_refused;
+  clock_note_.reset();
   if (case_.publishing.publish_clock) private_.deleteParam(clock_reached);
   return 0;
 }
@@ -101,6 +102,7 @@ void TankNode::advertise_topics() {
     if (!ros::param::param("/use_sim_time", false))
       log(LogLevel::warning, "this node publishes /clock, but the parameter /use_sim_time is not true: others will not follow it");
     follow_earlier_clock();
+    clock_note_ = std::make_unique<ClockNote>(private_.resolveName(clock_reached));
   }
 }
 
@@ -254,7 +256,7 @@ void TankNode::note_clock(const LoopStatus& status) {
   if (!case_.publishing.publish_clock) return;
   // until the next note comes the clock may go on as fast as it just did, and a little faster
   const double next_second = 2.0 * real_time_factor_ + 1.0;
-  private_.setParam(clock_reached, clock_.at(status.solver.time).toSec() + next_second);
+  clock_note_->write(clock_.at(status.solver.time).toSec() + next_second);
 }
 
 bool TankNode::everything_is_heard() {
@@ -275,7 +277,7 @@ void TankNode::ended(const LoopStatus& status) {
     bag_.reset();
     return;
   }
-  bag_->write("status", clock_.at(status.solver.time), make_status(status));
+  bag_->write_last("status", clock_.at(status.solver.time), make_status(status));
   bag_->finish();
   log(LogLevel::info, "wrote '" + std::filesystem::absolute(bag_->path()).string() + "'");
 }

@@ -1,6 +1,7 @@
 // The live node: everything is in TankNode; here are only the process's beginning and end.
 #include <ros/ros.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
     return version || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ? 0 : 2;
   }
   wavetank::set_log_sink(log_to_ros);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
   ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
   try {

@@ -8,6 +8,7 @@
 #include "wavetank/common/log.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/node/bag_run.h"
+#include "wavetank/node/check_report.h"
 #include "wavetank/node/resources.h"
 #include "wavetank/node/run_options.h"
 
@@ -49,20 +50,13 @@ void check(const RunOptions& options) {
   check_names(checked);
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;
-  const Estimate estimated = estimate(checked, simulation_options);
-  std::printf("%s\n", checked.title.c_str());
-  std::printf("particles         %zu\n", estimated.particles);
-  std::printf("wall elements     %zu\n", estimated.wall_elements);
-  std::printf("lid elements      %zu\n", estimated.lid_elements);
-  std::printf("device memory     %.1f MiB\n", estimated.device_memory / (1024.0 * 1024.0));
-  std::printf("time step         %.3g s\n", estimated.time_step);
-  std::printf("simulated time    %.6g s\n", checked.duration);
-  std::printf("estimated time    %s\n", duration_text(estimated.wall_seconds).c_str());
+  std::fputs(check_report(checked, estimate(checked, simulation_options)).c_str(), stdout);
 }
 
 int run(const RunOptions& options) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   BagRun bag_run(options, caught_signal);
   switch (bag_run.run()) {
     case BagRun::Outcome::done:

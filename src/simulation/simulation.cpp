@@ -13,6 +13,7 @@
 #include "snapshot.h"
 #include "water_film.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/stopwatch.h"
 #include "wavetank/common/version.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/instruments/recorder.h"
@@ -155,6 +156,7 @@ struct Simulation::Parts {
         solver(prepared_solver()),
         recorder(scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); }) {
     tell_of_noise(scene);
+    tell_of_shallow_water(layout);
     tell_of_thin_walls(scene, discretisation, *solver);
     solver->limit_time_step(coupling.longest_time_step());
     initial_bodies = world.save();
@@ -169,7 +171,8 @@ struct Simulation::Parts {
     return result;
   }
 
-  std::unique_ptr<Solver> prepared_solver() const {
+  std::unique_ptr<Solver> prepared_solver() {
+    const Stopwatch::Lap lap(compiling);
     progress("compiling kernels", 0.0);
     std::unique_ptr<Solver> result = make_solver(device, scene, layout, discretisation, reference_points(world));
     progress("compiling kernels", 1.0);
@@ -191,8 +194,13 @@ struct Simulation::Parts {
     return wrenches;
   }
 
+  /// One step with the samples that fall into it.
   void advance();
+  /// The step alone.
+  void step_on();
   void check(const StepReport& report);
+  /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
+  double loading_seconds();
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
   void check_bodies();
   std::string when() const;
@@ -201,6 +209,7 @@ struct Simulation::Parts {
   void restore_bodies(const std::vector<char>& bytes);
 
   SimulationOptions options;
+  Stopwatch compiling;
   Layout layout;
   double fastest;  ///< m/s, expected of walls
   Case scene;
@@ -279,6 +288,18 @@ void Simulation::Parts::check_bodies() {
   }
 }
 
+double Simulation::Parts::loading_seconds() {
+  constexpr double loading = 1.5;  // s: whatever took longer compiled
+  const double spent = compiling.seconds();
+  if (spent < loading) return spent;
+  try {
+    prepared_solver();
+  } catch (const Error&) {  // there is no room for two
+    return 0;
+  }
+  return compiling.seconds() - spent;
+}
+
 std::string Simulation::Parts::when() const {
   return " at t = " + number(time) + " s, step " + std::to_string(step) + ": the simulation stops";
 }
@@ -316,17 +337,21 @@ void Simulation::advance() {
 }
 
 void Simulation::Parts::advance() {
-  const double next_time = time + time_step;
-  recorder.before_step(*solver, time, next_time);
+  const double last_time = time, next_time = time + time_step;
+  recorder.before_step(*solver, last_time, next_time);
+  step_on();
+  recorder.after_step(*solver, last_time, next_time);
+}
+
+void Simulation::Parts::step_on() {
   coupling.set_time(time);
   coupling.set_film(film.loads(*solver, coupling.now().frame, false));
   report = solver->advance(world.anything_moves() ? &coupling : nullptr);
-  const double last_time = std::exchange(time, next_time);
+  time += time_step;
   ++step;
   guard_hits += static_cast<std::uint64_t>(report.guard_hits);
   check(report);
   time_step = report.time_step;
-  recorder.after_step(*solver, last_time, next_time);
 }
 
 void Simulation::reset() {
@@ -482,33 +507,67 @@ PairCount Simulation::count_pairs() const { return parts_->solver->count_pairs()
 
 std::size_t Simulation::device_memory() const { return parts_->solver->device_memory(); }
 
-Estimate estimate(const Case& checked, const SimulationOptions& options) {
-  const Layout layout = lay_out(checked, options.resolve);
-  const Case scene = settled(checked, layout, fastest_wall(checked, layout, options.resolve));
-  const Discretisation discretisation = discretise(scene, layout);
-  RigidWorld world(scene, layout, options.resolve);
-  Coupling coupling(world, scene, layout, discretisation);
-  WallMover* const mover = world.anything_moves() ? &coupling : nullptr;
-  const compute::Device device(compute::choose_device(scene.device));
-  const std::unique_ptr<Solver> solver = make_solver(device, scene, layout, discretisation, reference_points(world));
-  solver->limit_time_step(coupling.longest_time_step());
-  tell_of_noise(scene);
-  tell_of_thin_walls(scene, discretisation, *solver);
-  solver->start();
-  solver->advance(mover);  // the first launch of a kernel may still compile it
-  constexpr int measured_steps = 3;
-  const auto begin = std::chrono::steady_clock::now();
-  for (int k = 0; k < measured_steps; ++k) solver->advance(mover);
-  const double step_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / measured_steps;
+namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// The middle of what each of several goes takes, which a hiccup of the machine does not change.
+template <class Go>
+double median_seconds(const Go& go) {
+  constexpr int fewest = 5, most = 60;
+  constexpr double enough = 0.6;  // s in all
+  std::vector<double> laps;
+  const Clock::time_point begin = Clock::now();
+  while (static_cast<int>(laps.size()) < fewest || (static_cast<int>(laps.size()) < most && seconds_since(begin) < enough)) {
+    const Clock::time_point lap = Clock::now();
+    go();
+    laps.push_back(seconds_since(lap));
+  }
+  const auto middle = laps.begin() + static_cast<std::ptrdiff_t>(laps.size() / 2);
+  std::nth_element(laps.begin(), middle, laps.end());
+  return *middle;
+}
+
+}  // namespace
+
+Estimate estimate(const Case& checked, const SimulationOptions& options) {
+  const Clock::time_point begin = Clock::now();
+  Simulation::Parts parts(checked, options);
   Estimate result;
-  result.particles = layout.particles.size();
-  result.wall_elements = walls_in_use(scene, layout);
-  result.lid_elements = layout.lid.size();
-  result.device_memory = static_cast<double>(solver->device_memory());
-  result.time_step = std::min({discretisation.acoustic_time, discretisation.viscous_time, coupling.longest_time_step()});
-  const double steps = (scene.duration + scene.numerics.packing.settling * discretisation.sound_period) / result.time_step;
-  result.wall_seconds = (steps + 0.3 * scene.numerics.packing.iterations) * step_seconds;
+  result.start_seconds = seconds_since(begin) - parts.compiling.seconds();
+  result.start_seconds += parts.loading_seconds();
+  Solver& solver = *parts.solver;
+  const NumericsCase& numerics = parts.scene.numerics;
+  const auto unheard = [](double) {};
+  if (numerics.packing.iterations > 0) {
+    solver.pack(1, unheard);  // the first launch of a kernel may still compile it
+    constexpr int iterations = 8;
+    const Clock::time_point packing = Clock::now();
+    solver.pack(iterations, unheard);
+    result.start_seconds += seconds_since(packing) / iterations * numerics.packing.iterations;
+  }
+  parts.report = solver.start();
+  parts.time_step = parts.report.time_step;
+  if (parts.world.anything_moves()) solver.set_wall_motions(parts.coupling.now());
+  parts.step_on();
+  const double step_seconds = median_seconds([&] { parts.step_on(); });
+
+  result.particles = parts.layout.particles.size();
+  result.wall_elements = walls_in_use(parts.scene, parts.layout);
+  result.lid_elements = parts.layout.lid.size();
+  result.device_memory = static_cast<double>(solver.device_memory());
+  result.size = size_of(parts.scene, parts.layout, parts.world);
+  if (const std::optional<ThinWall> wall = solver.thinnest_wall()) result.thinnest_wall = wall->thickness;
+  result.spacing = parts.layout.spacing;
+  result.time_step = std::min(
+      {parts.discretisation.acoustic_time, parts.discretisation.viscous_time, parts.coupling.longest_time_step(), parts.time_step});
+  result.start_seconds += numerics.packing.settling * parts.discretisation.sound_period / result.time_step * step_seconds;
+  const double steps = parts.scene.duration / result.time_step;
+  result.step_seconds = steps * step_seconds;
+  result.instrument_seconds = steps * parts.recorder.seconds_a_step(solver, result.time_step);
+  result.wall_seconds = result.start_seconds + result.step_seconds + result.instrument_seconds;
   return result;
 }
 

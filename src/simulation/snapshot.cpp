@@ -1,13 +1,13 @@
 #include "snapshot.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "wavetank/common/error.h"
+#include "wavetank/common/whole_file.h"
 
 namespace wavetank {
 namespace {
@@ -82,16 +82,7 @@ void write_snapshot(const std::string& path, const Snapshot& snapshot) {
   writer.block(snapshot.fluid);
   writer.value(checksum(writer.bytes.data(), writer.bytes.size()));
 
-  const std::string temporary = path + ".part";
-  errno = 0;
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-  stream.write(writer.bytes.data(), static_cast<std::streamsize>(writer.bytes.size()));
-  stream.close();
-  if (!stream || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "the disk did not take it";
-    std::remove(temporary.c_str());
-    throw Error("cannot write the snapshot " + path + ": " + reason + ".");
-  }
+  write_whole(path, {writer.bytes.data(), writer.bytes.size()}, "the snapshot");
 }
 
 Snapshot read_snapshot(const std::string& path) {

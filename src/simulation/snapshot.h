@@ -21,7 +21,7 @@ struct Snapshot {
   std::vector<char> fluid;
 };
 
-/// Writes it whole or not at all (a temporary file beside it, renamed). Throws Error if the disk does not take it.
+/// Writes it whole or not at all. Throws Error if the disk does not take it, or something other than a plain file lies there.
 void write_snapshot(const std::string& path, const Snapshot& snapshot);
 
 /// Throws Error for a missing, truncated, damaged or foreign file.

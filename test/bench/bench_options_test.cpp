@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "../../src/bench/whole_file.h"
 #include "../common/error_of.h"
 #include "../common/scratch_directory.h"
 
@@ -41,22 +40,6 @@ TEST(BenchOptions, RefuseWhatMakesNoSense) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"--repeat", "-3"}, {"--repeat", "some"}, {"--json"}, {"--json", ""}, {"--nonsense"}, {"case.yaml"}})
     EXPECT_THROW(read(arguments), Error) << arguments[0];
-}
-
-TEST(WholeFile, IsWrittenOrNot) {
-  const ScratchDirectory scratch;
-  const std::string path = scratch.write("out.json", "old");
-  check_writable(path);
-  std::ifstream before(path);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(before), {}), "old");
-  write_whole(path, "new");
-  std::ifstream after(path);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(after), {}), "new");
-  for (const std::string& wrong : {scratch.file("no/folder.json"), scratch.path().string(), std::string()}) {
-    EXPECT_THROW(check_writable(wrong), Error) << wrong;
-    EXPECT_THROW(write_whole(wrong, "x"), Error) << wrong;
-  }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 1);
 }
 
 }  // namespace wavetank::bench

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
+#include "../common/error_of.h"
 #include "../common/scratch_directory.h"
 
 namespace wavetank {
@@ -54,6 +56,42 @@ TEST_F(BagWriterTest, ReadsBackWithTopicsTimesAndLatching) {
 TEST_F(BagWriterTest, LeavesNothingWhenItIsNotFinished) {
   { BagWriter(path("a.bag"), "/wavetank").write("note", ros::Time(1.0), text("lost")); }
   EXPECT_TRUE(fs::is_empty(scratch_.path()));
+}
+
+TEST_F(BagWriterTest, KeepsWhatLiesAtItsTemporaryName) {
+  scratch_.write("a.bag.active", "of a run that died");
+  scratch_.write("a.bag.1.active", "of another");
+  {
+    BagWriter writer(path("a.bag"), "/wavetank");
+    EXPECT_NE(error_of([&] { BagWriter(path("a.bag"), "/wavetank"); }).find("another process is writing it"), std::string::npos);
+    writer.write("note", ros::Time(0.5), text("hello"));
+    writer.finish();
+  }
+  EXPECT_EQ(fs::file_size(path("a.bag.2.active")), 18u);
+  EXPECT_EQ(fs::file_size(path("a.bag.1.active")), 10u);
+  EXPECT_FALSE(fs::exists(path("a.bag.active")));
+  EXPECT_EQ(rosbag::View(rosbag::Bag(path("a.bag"))).size(), 1u);
+}
+
+TEST_F(BagWriterTest, LeavesAWholeBagUnderItsTemporaryNameWhereAnotherThingTookItsPlace) {
+  scratch_.write("precious", "kept");
+  BagWriter writer(path("a.bag"), "/wavetank");
+  writer.write("note", ros::Time(0.5), text("hello"));
+  fs::create_symlink(path("precious"), path("a.bag"));
+  EXPECT_NE(error_of([&] { writer.finish(); }).find("a.bag.active"), std::string::npos);
+  EXPECT_FALSE(writer.is_open());
+  EXPECT_TRUE(fs::is_symlink(path("a.bag")));
+  EXPECT_EQ(fs::file_size(path("precious")), 4u);
+  EXPECT_EQ(rosbag::View(rosbag::Bag(path("a.bag.active"))).size(), 1u);
+}
+
+TEST_F(BagWriterTest, GivesBackWhatItReserved) {
+  BagWriter writer(path("a.bag"), "/wavetank");
+  writer.write("note", ros::Time(0.5), text("hello"));
+  writer.finish();
+  struct stat bag;
+  ASSERT_EQ(stat(path("a.bag").c_str(), &bag), 0);
+  EXPECT_LT(bag.st_blocks * 512, bag.st_size + 65536);
 }
 
 TEST_F(BagWriterTest, RefusesPlacesWhereNoBagCanBe) {

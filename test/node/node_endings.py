@@ -4,9 +4,11 @@
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -21,6 +23,17 @@ from wavetank.msg import ProbeArray, SolverStatus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CASE = os.path.join(HERE, "still_tank.yaml")
+
+# A node of its own, at another master, that prints what it hears.
+LISTENER = """
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from wavetank.msg import SolverStatus
+rospy.init_node("listener", disable_signals=True)
+rospy.Subscriber("/lonely/status", SolverStatus, lambda message: print("status", flush=True))
+rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: print("diagnostics", flush=True))
+rospy.spin()
+"""
 
 
 def node_program():
@@ -148,6 +161,85 @@ class NodeEndings(unittest.TestCase):
             time.sleep(0.1)
         subscriber.unregister()
         self.assertEqual(clock, sorted(clock))
+
+    def test_a_killed_nodes_bag_is_kept_by_the_one_that_follows(self):
+        killed = self.start("killed", case_file=CASE, duration=1000.0, bag=self.path("a.bag"))
+        rospy.wait_for_message("/killed/probes", ProbeArray, 60.0)
+        time.sleep(1.0)
+        killed.kill()
+        killed.wait()
+        self.assertEqual(os.listdir(self.folder), ["a.bag.active"])
+        died = os.path.getsize(self.path("a.bag.active"))
+        node = self.start("killed", case_file=CASE, duration=0.05, bag=self.path("a.bag"), exit_at_end=True)
+        code, output = self.wait_for_end(node)
+        self.assertEqual(code, 0, output)
+        self.assertIn("a.bag.1.active", output)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.bag", "a.bag.1.active"])
+        self.assertEqual(os.path.getsize(self.path("a.bag.1.active")), died)
+        self.assertEqual(len(self.stamps(self.path("a.bag"), "/killed/probes")), 51)
+
+    def test_only_plain_files_become_bags_and_snapshots(self):
+        with open(self.path("precious"), "w") as file:
+            file.write("kept")
+        for name in ["a.bag", "b.bag.active", "linked_failure.snapshot"]:
+            os.symlink("precious", self.path(name))
+        for bag in ["a.bag", "b.bag"]:
+            code, output = self.wait_for_end(self.start("linked", case_file=CASE, bag=self.path(bag)))
+            self.assertEqual(code, 2, output)
+            self.assertIn("a link", output)
+        fluid = {"sound_speed": 0.6, "fill": [{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}]}
+        node = self.start("linked", case_file=CASE, duration=2.0, fluid=fluid, bodies=[], snapshot_directory=self.folder, bag="")
+        code, output = self.wait_for_end(node)
+        self.assertEqual(code, 3, output)
+        self.assertIn("a link", output)
+        with open(self.path("precious")) as file:
+            self.assertEqual(file.read(), "kept")
+
+    def test_a_dead_master_silences_nothing(self):
+        with socket.socket() as probe:
+            probe.bind(("localhost", 0))
+            port = probe.getsockname()[1]
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_LOG_DIR=self.folder)
+        rosmaster = [sys.executable, shutil.which("rosmaster"), "--core", "-p", str(port), "__log:=" + self.path("m")]
+        quiet = {"cwd": self.folder, "env": environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        master = subprocess.Popen(rosmaster, **quiet)
+        self.addCleanup(self.end, master)
+        own = rosgraph.Master("/test", environment["ROS_MASTER_URI"])
+        deadline = time.time() + 30
+        while not own.is_online():
+            self.assertLess(time.time(), deadline, "the second master did not start")
+            time.sleep(0.1)
+        for key, value in {"case_file": CASE, "duration": 1000.0, "publish_clock": True, "real_time_factor": 1.0}.items():
+            own.setParam("/lonely/" + key, value)
+        node = subprocess.Popen([node_program(), "__name:=lonely"], **quiet)
+        self.addCleanup(self.end, node)
+        listener = subprocess.Popen([sys.executable, "-c", LISTENER], **dict(quiet, stdout=subprocess.PIPE))
+        self.addCleanup(self.end, listener)
+        heard = []
+
+        def read():
+            for line in iter(listener.stdout.readline, b""):
+                heard.append(line.decode().strip())
+
+        reader = threading.Thread(target=read, daemon=True)
+        reader.start()
+
+        def wait_for_each(seconds):
+            end = time.time() + seconds
+            while time.time() < end and (heard.count("status") < 4 or heard.count("diagnostics") < 4):
+                time.sleep(0.1)
+            self.assertGreaterEqual(heard.count("status"), 4, heard)
+            self.assertGreaterEqual(heard.count("diagnostics"), 4, heard)
+
+        wait_for_each(60)
+        self.assertTrue(own.hasParam("/lonely/clock_reached"))
+        master.kill()
+        master.wait()
+        time.sleep(2.5)  # what was on its way, and a first note that finds no master
+        del heard[:]
+        wait_for_each(15)
+        node.send_signal(signal.SIGINT)
+        self.assertEqual(node.wait(timeout=10), 0)
 
     def test_what_cannot_be_read_laid_out_or_restored_is_refused(self):
         for number, (parameters, word) in enumerate(

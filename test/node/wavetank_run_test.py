@@ -3,9 +3,13 @@
 
 import glob
 import os
+import re
 import resource
 import signal
+import socket
+import stat
 import subprocess
+import time
 import unittest
 
 import rosbag
@@ -69,7 +73,32 @@ class Information(ProgramTest):
         self.assert_runs(result)
         for word in ["particles", "wall elements", "memory", "estimated time"]:
             self.assertIn(word, result.stdout)
+        self.assertEqual(result.stderr, "")
         self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_check_tells_sizes_masses_and_draughts(self):
+        raft = {"name": "raft", "box": {"min": [0.1, -1, 0.15], "max": [0.3, 1, 0.25]}, "motion": "free", "density": 300}
+        stone = {"name": "stone", "box": {"min": [0.32, -1, 0.05], "max": [0.38, 1, 0.11]}, "motion": "free", "density": 2000}
+        result = self.run_program("--check", self.case(bodies=[raft, stone], instruments__pressure_probes=[], duration=2.0))
+        self.assert_runs(result)
+        lines = {line[:17].strip(): line[18:] for line in result.stdout.splitlines() if len(line) > 18}
+        self.assertEqual(lines["tank"], "0.4 × 0.4 m, holds 0.16 m²")
+        self.assertEqual(lines["body raft"], "0.2 × 0.1 m, 0.02 m², 6 kg/m, afloat upright its draught is 0.03 m")
+        self.assertEqual(lines["body stone"], "0.06 × 0.06 m, 0.0036 m², 7.2 kg/m, sinks")
+        self.assertRegex(lines["water"], r"^0\.0\d+ m², \d+\.?\d* kg/m$")
+        self.assertEqual(lines["least depth"], "0.2 m, 10 particles")
+        self.assertEqual(lines["least thickness"], "0.06 m, 3 particles, of body stone")
+        self.assertRegex(lines["estimated time"], r"\(start .*, steps .*, instruments .*\)$")
+
+    def test_shallow_water_is_told_before_and_while_it_runs(self):
+        case = self.case(bodies=[], fluid__fill=[{"box": {"min": [0, 0, 0], "max": [0.4, 0, 0.05]}}])
+        for arguments in [("--check", case), (case, "--quiet")]:
+            result = self.run_program(*arguments)
+            self.assert_runs(result)
+            self.assertIn("spacings deep", result.stderr)
+            self.assertIn("fluid/spacing", result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.assert_refused(self.run_program("--check", self.case(fluid__spacing=5.0, bodies=[])), "fluid/spacing", "larger than the tank")
 
 
 class Bags(ProgramTest):
@@ -141,6 +170,37 @@ class Bags(ProgramTest):
             self.assertEqual(file.read(), "old")
         self.assert_runs(self.run_program(self.case(), "--bag", "out.bag"))
         self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)
+
+    def test_a_bag_is_written_by_one_run_at_a_time(self):
+        first = self.start_program(self.case(duration=1000.0), "--bag", "out.bag")
+        read_line_with(first, "running")
+        self.assert_refused(self.run_program(self.case("other.yaml"), "--bag", "out.bag"), "out.bag", "another process")
+        interrupt(first)
+        self.assertEqual(first.wait(timeout=30), 130)
+        found = stamps(self.path("out.bag"), "/wavetank/probes")
+        self.assertEqual(found, milliseconds(len(found)))
+        self.assertEqual(self.files(), ["case.yaml", "other.yaml", "out.bag"])
+
+    def test_what_a_killed_run_left_is_kept(self):
+        for left in [["out.bag.active"], ["out.bag.1.active", "out.bag.active"]]:
+            run = self.start_program(self.case(duration=1000.0, instruments__rate=20000), "--bag", "out.bag")
+            read_line_with(run, "running")
+            deadline = time.time() + 60
+            while os.path.getsize(self.path("out.bag.active")) < 2000000:
+                self.assertLess(time.time(), deadline)
+                time.sleep(0.02)
+            run.kill()
+            run.wait()
+            self.assertEqual(self.files(), ["case.yaml"] + left)
+        result = self.run_program(self.case(), "--bag", "out.bag")
+        self.assert_runs(result)
+        self.assertIn("out.bag.2.active", result.stderr)
+        self.assertEqual(self.files(), ["case.yaml", "out.bag", "out.bag.1.active", "out.bag.2.active"])
+        self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)
+        subprocess.run(["rosbag", "reindex", "--quiet", "out.bag.1.active"], cwd=self.folder, check=True)
+        found = stamps(self.path("out.bag.1.active"), "/wavetank/probes")
+        self.assertGreater(len(found), 100)
+        self.assertEqual(found, [i * 50000 for i in range(len(found))])
 
     def test_duration_and_set_replace_keys(self):
         self.assert_runs(self.run_program(self.case(), "--bag", "out.bag", "--duration", "0.02", "--set", "instruments/rate=500"))
@@ -264,6 +324,7 @@ class Refusals(ProgramTest):
         self.assert_refused(self.run_program(self.case(), "--nonsense"), "--nonsense")
         self.assert_refused(self.run_program(self.case(), "--set", "duration"), "duration")
         self.assert_refused(self.run_program(self.case(), "--clouds"), "--bag")
+        self.assert_refused(self.run_program(self.case(), "--bag", "out", "--save", "./out"), "--bag and --save")
         self.assert_refused(self.run_program("no_such_case.yaml"), "no_such_case.yaml")
 
     def test_unwritable_bags_are_told_before_the_start(self):
@@ -272,6 +333,43 @@ class Refusals(ProgramTest):
             self.assert_refused(result, name)
             self.assertNotIn("%", result.stdout)
         self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_nothing_but_plain_files_is_written_or_replaced(self):
+        case = self.case()
+        with open(self.path("precious"), "w") as file:
+            file.write("kept")
+        os.mkdir(self.path("folder"))
+        os.mkfifo(self.path("pipe"))
+        os.symlink("precious", self.path("link"))
+        os.symlink("nowhere", self.path("dangling"))
+        listener = socket.socket(socket.AF_UNIX)
+        self.addCleanup(listener.close)
+        listener.bind(self.path("socket"))
+        places = {"folder": "a folder", "pipe": "a pipe", "link": "a link", "dangling": "a link", "socket": "a socket"}
+        try:
+            os.mknod(self.path("device"), stat.S_IFCHR | 0o600, os.makedev(1, 3))
+            places["device"] = "a device"
+        except PermissionError:
+            places["/dev/null"] = "a device"  # which only root could replace
+        kinds = {name: os.lstat(self.path(name)).st_mode for name in self.files()}
+        for option in ["--bag", "--save"]:
+            for name, kind in places.items():
+                with self.subTest(option + " " + name):
+                    result = self.run_program(case, option, name)
+                    self.assert_refused(result, name, kind)
+                    self.assertNotIn("%", result.stdout)
+        for name in ["pipe", "link", "dangling", "folder"]:
+            os.rename(self.path(name), self.path("out.bag.active"))
+            self.assert_refused(self.run_program(case, "--bag", "out.bag"), "out.bag.active", places[name])
+            os.rename(self.path("out.bag.active"), self.path(name))
+        os.symlink("precious", self.path("end.snapshot.part"))
+        self.assert_runs(self.run_program(case, "--save", "end.snapshot"))
+        self.assertFalse(os.path.islink(self.path("end.snapshot")))
+        os.remove(self.path("end.snapshot.part"))
+        os.remove(self.path("end.snapshot"))
+        with open(self.path("precious")) as file:
+            self.assertEqual(file.read(), "kept")
+        self.assertEqual({name: os.lstat(self.path(name)).st_mode for name in self.files()}, kinds)
 
     def test_unknown_device(self):
         self.assert_refused(self.run_program(self.case(), "--bag", "out.bag", "--device", "no such device"), "no such device")
@@ -329,29 +427,95 @@ class Refusals(ProgramTest):
             file.write("title: [unfinished\nfluid: {")
         self.assert_refused(self.run_program("broken.yaml"), "broken.yaml")
 
+
+class FullDisks(ProgramTest):
+    """What a run has until its disk is full is kept, and one sentence tells where."""
+
+    def small_disk(self, size):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        mount = ["mount", "-t", "tmpfs", "-o", "size=" + size, "tmpfs", disk]
+        if os.geteuid() != 0 or subprocess.run(mount, stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small disk to fill can only be mounted by root, outside a container that forbids it")
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        return disk
+
+    def assert_kept(self, result, bag, word):
+        """The bag is whole up to the time of which the sentence speaks, and the snapshot where it says."""
+        self.assert_refused(result, word, os.path.basename(bag))
+        last = float(re.search(r"stops at ([0-9.e+-]+) s", result.stderr).group(1))
+        found = stamps(bag, "/wavetank/probes")
+        self.assertEqual(found, [i * 50000 for i in range(len(found))])
+        self.assertGreater(len(found), 100)
+        self.assertLess(abs(found[-1] * 1e-9 - last), 2e-3)
+        with rosbag.Bag(bag) as opened:
+            status = [message for _, message, _ in opened.read_messages(topics=["/wavetank/status"])][-1]
+        self.assertEqual(status.phase, status.FAILED)
+        self.assertFalse(os.path.exists(bag + ".active"))
+        snapshot = re.search(r"its state is in '([^']+)'", result.stderr).group(1)
+        case = self.case(duration=last + 0.01, instruments__rate=20000)
+        self.assert_runs(self.run_program(case, "--restore", snapshot))
+        return snapshot
+
     def test_a_file_that_cannot_grow(self):
         def limit():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (3000000, 3000000))
 
         case = self.case(duration=1000.0, instruments__rate=20000)
-        before = self.files()
         result = self.run_program(case, "--bag", "out.bag", timeout=300, preexec_fn=limit)
-        self.assert_refused(result, "out.bag")
-        self.assertEqual(self.files(), before)
+        self.assert_kept(result, self.path("out.bag"), "limit on the size of files")
+        self.assertEqual(self.files(), ["case.yaml", "out.bag", "out.snapshot"])
 
-    def test_a_full_disk(self):
-        disk = self.path("disk")
-        os.mkdir(disk)
-        if os.geteuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "tmpfs", disk], stderr=subprocess.DEVNULL).returncode != 0:
-            self.skipTest("a small disk to fill can only be mounted by root, outside a container that forbids it")
-        try:
-            case = self.case(duration=1000.0, instruments__rate=20000)
-            result = self.run_program(case, "--bag", os.path.join(disk, "out.bag"), timeout=300)
-            self.assert_refused(result, "the disk is full")
-            self.assertEqual(os.listdir(disk), [])
-        finally:
-            subprocess.run(["umount", disk], check=True)
+    def test_a_full_disk_under_the_bag(self):
+        disk = self.small_disk("3m")
+        case = self.case(duration=1000.0, instruments__rate=20000)
+        bag = os.path.join(disk, "out.bag")
+        self.assert_kept(self.run_program(case, "--bag", bag, timeout=300), bag, "the disk is full")
+
+    def test_a_full_disk_under_bag_and_snapshot(self):
+        disk = self.small_disk("3m")
+        case = self.case(duration=1000.0, instruments__rate=20000)
+        bag = os.path.join(disk, "out.bag")
+        run = self.start_program(case, "--bag", bag, "--save", os.path.join(disk, "end.snapshot"))
+        read_line_with(run, "running")
+        # all that the bag does not have by then
+        with open(os.path.join(disk, "others"), "wb", buffering=0) as file:
+            try:
+                while file.write(bytes(4096)) == 4096:
+                    pass
+            except OSError:
+                pass
+        run.wait(timeout=120)
+        errors = run.stderr.read()
+        self.assertEqual(run.returncode, 2, errors)
+        self.assertEqual(len(errors.strip().splitlines()), 1, errors)
+        self.assertGreater(len(stamps(bag, "/wavetank/probes")), 1)
+        snapshot = re.search(r"its state is in '([^']+)'", errors).group(1)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, snapshot)))
+
+    def test_a_full_disk_under_the_snapshot(self):
+        disk = self.small_disk("4k")
+        result = self.run_program(self.case(), "--bag", "out.bag", "--save", os.path.join(disk, "end.snapshot"))
+        self.assert_refused(result, "the disk is full", os.path.join(self.folder, "end.snapshot"))
+        self.assertEqual(os.listdir(disk), [])
+        self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)
+        self.assert_runs(self.run_program(self.case(duration=0.06), "--restore", "end.snapshot"))
+
+    def test_no_room_anywhere(self):
+        disk = self.small_disk("4k")
+        environment = dict(os.environ, TMPDIR=disk)
+        case = self.case()
+        result = subprocess.run(
+            [program_runner.PROGRAM, case, "--bag", self.path("out.bag"), "--save", "end.snapshot"],
+            cwd=disk, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120,
+        )
+        self.assert_refused(result, "end.snapshot", "the disk is full", "nor in '%s'" % disk)
+        self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)
+
+    def test_a_disk_too_small_to_begin(self):
+        disk = self.small_disk("64k")
+        self.assert_refused(self.run_program(self.case(), "--bag", os.path.join(disk, "out.bag")), "the disk is full")
+        self.assertEqual(os.listdir(disk), [])
 
 
 if __name__ == "__main__":

@@ -52,8 +52,8 @@ struct Layout {
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
 /// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor
 /// under it, where elements that the box covers partly are clipped at its sides. A body that moves has its whole outside, and hides nothing
-/// of other walls. Throws Error for every mesh fault, for fluid outside the
-/// tank or leaking from it, for an empty fill, and for a probe inside a body or outside the tank.
+/// of other walls. Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger
+/// than the tank, a body of a mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});
 
 }  // namespace wavetank

@@ -31,6 +31,9 @@ class Recorder {
 
   Samples take();
 
+  /// Wall time that readings take in a step of `time_step` (s) on average, from a few that are made now and not kept, s.
+  double seconds_a_step(Solver& solver, double time_step) const;
+
   static constexpr std::size_t instrument_count = 5;
   std::array<std::uint64_t, instrument_count> clock_indices() const;
   void set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices);

@@ -11,6 +11,7 @@ class SampleClock {
 
   double next() const { return static_cast<double>(index_) / rate_; }  ///< s
   void tick() { ++index_; }
+  double rate() const { return rate_; }  ///< Hz
   std::uint64_t index() const { return index_; }
   void set_index(std::uint64_t index) { index_ = index; }
 

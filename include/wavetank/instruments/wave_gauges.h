@@ -11,7 +11,8 @@ namespace wavetank {
 
 /// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
 /// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
-/// A body on the line counts as water where water stands on it, and not where it is dry; bodies that move are looked for where they are.
+/// The floor is the uppermost thing that water stands on: a body, a shelf of the tank, or the tank's floor. So of several surfaces one over
+/// another the gauge reads the upper one. What is dry does not count; bodies that move are looked for where they are.
 /// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
 class WaveGauges {
  public:
@@ -23,6 +24,7 @@ class WaveGauges {
  private:
   struct Line {
     double floor = 0;                ///< z where the line begins, m
+    std::vector<double> shelves;     ///< z of the tank's floors above that, upwards, m
     std::size_t begin = 0, end = 0;  ///< its points
   };
   struct Solid {  ///< a body that moves, as the case's geometry has it

@@ -22,7 +22,8 @@ class BagRun {
   /// throughout.
   BagRun(const RunOptions& options, const std::atomic<int>& interrupted);
 
-  /// Starts and runs the simulation, ends the bag and reports on standard output. Throws Error for whatever stops it but a violation.
+  /// Starts and runs the simulation, ends the bag and reports on standard output. Throws Error for whatever stops it but a violation; where
+  /// the disk does not take the bag or the snapshot any more, after all that could be was kept, and what() says where.
   Outcome run();
 
  private:
@@ -34,7 +35,12 @@ class BagRun {
   void write_status(const EnergySample& energies);
   void write_clouds();
   void finish();
+  void finish_bag();
+  std::string failure_snapshot() const;
   void save_violation();
+  void save_what_is_left();
+  void save_at_end();
+  std::string save_anywhere(const std::string& wanted);
   void report() const;
   void say(const std::string& text);
   double elapsed() const;
@@ -55,6 +61,9 @@ class BagRun {
   Clock::time_point began_;
   double seconds_ = 0;  ///< of wall time, stepping
   std::string violation_;
+  std::string cut_short_;     ///< why bag or snapshot are not as they were asked for, and where they are; empty = they are
+  std::string save_problem_;  ///< why the snapshot is not where it was wanted
+  bool bag_is_whole_ = false;
 };
 
 }  // namespace wavetank

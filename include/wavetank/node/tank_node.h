@@ -13,6 +13,7 @@
 
 #include "wavetank/node/bag_writer.h"
 #include "wavetank/node/body_inputs.h"
+#include "wavetank/node/clock_note.h"
 #include "wavetank/node/cloud_publisher.h"
 #include "wavetank/node/messages.h"
 #include "wavetank/node/parameters.h"
@@ -74,6 +75,7 @@ class TankNode {
   std::unique_ptr<TransformPublisher> moving_transforms_;  ///< none where nothing moves
   BodyInputs inputs_;
   std::vector<ros::ServiceServer> services_;
+  std::unique_ptr<ClockNote> clock_note_;  ///< where /clock is published
   std::unique_ptr<BagWriter> bag_;
   double next_bag_cloud_ = 0;   ///< s of simulated time
   double next_bag_status_ = 0;  ///< likewise

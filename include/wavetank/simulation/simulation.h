@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "wavetank/instruments/samples.h"
 #include "wavetank/rigid/rigid_world.h"
 #include "wavetank/scene/case.h"
+#include "wavetank/simulation/case_size.h"
 #include "wavetank/sph/pair_count.h"
 
 namespace wavetank {
@@ -57,6 +59,24 @@ struct SimulationOptions {
   bool time_kernels = false;
 };
 
+/// What `--check` reports: from the layout, and a few steps and readings that are timed.
+struct Estimate {
+  std::size_t particles = 0;
+  std::size_t wall_elements = 0;  ///< or facets
+  std::size_t lid_elements = 0;
+  CaseSize size;
+  std::optional<double> thinnest_wall;  ///< m, of the walls thinner than the support with fluid on both sides; none = there are none
+  double spacing = 0;                   ///< m
+  double device_memory = 0;             ///< bytes
+  double time_step = 0;                 ///< s, at rest
+  double start_seconds = 0;             ///< of wall time: laying out, compiling, packing, settling
+  double step_seconds = 0;              ///< all steps
+  double instrument_seconds = 0;        ///< all readings
+  double wall_seconds = 0;              ///< the whole run: the sum of the three; without writing files
+};
+/// Measured on the case's device, as busy as it is now.
+Estimate estimate(const Case& checked, const SimulationOptions& options = {});
+
 /// One simulation made from a case: fluid, bodies and instruments. Not thread-safe: one thread at a time.
 class Simulation {
  public:
@@ -69,7 +89,7 @@ class Simulation {
   /// Continues bit for bit from a snapshot of the same case on the same device. Throws Error for a truncated, foreign or mismatched file
   /// and leaves this simulation as it was.
   void restore(const std::string& path);
-  /// Writes a snapshot, whole or not at all.
+  /// Writes a snapshot, whole or not at all; an older plain file is replaced. Throws Error for anything else that lies there.
   void save(const std::string& path) const;
   /// Back to time 0, the same bits as at first.
   void reset();
@@ -99,17 +119,7 @@ class Simulation {
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+  friend Estimate estimate(const Case&, const SimulationOptions&);
 };
-
-/// What `--check` reports: from the layout and a few steps that are timed.
-struct Estimate {
-  std::size_t particles = 0;
-  std::size_t wall_elements = 0;  ///< or facets
-  std::size_t lid_elements = 0;
-  double device_memory = 0;  ///< bytes
-  double time_step = 0;      ///< s, the acoustic bound at rest
-  double wall_seconds = 0;   ///< of the whole run, from a short measurement on the case's device
-};
-Estimate estimate(const Case& checked, const SimulationOptions& options = {});
 
 }  // namespace wavetank

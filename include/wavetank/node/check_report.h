@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "wavetank/simulation/simulation.h"
+
+namespace wavetank {
+
+/// What `wavetank_run --check` prints: a line for the tank, each body and the water, and what the run will cost.
+std::string check_report(const Case& checked, const Estimate& estimated);
+
+}  // namespace wavetank
