@@ -25,6 +25,8 @@ struct Basin {
   Box domain;                          ///< bounding box of the tank's walls; 2-D: y = 0
   const TriangleGrid* grid = nullptr;  ///< all walls
   std::vector<Solid> solids;           ///< closed bodies
+  Vector3d up = Vector3d::UnitZ();     ///< unit, against gravity
+  Top top;                             ///< of the tank
 };
 
 /// One region of the case, filled: a regular lattice and which of its cells hold a particle.
@@ -34,7 +36,7 @@ struct FilledRegion {
   Vector3i count;
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
-  double level = 0;                ///< top of the region, m
+  FreeSurface surface;             ///< that it was filled up to
   double volume = 0;               ///< of a cell, m³ (2-D: m²)
 
   std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i; }
@@ -45,16 +47,17 @@ struct FilledRegion {
 /// tank.
 FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const std::string& key);
 
-/// From the seed to everywhere below the level that can be reached without crossing a wall. The lattice is fitted to the reached space: for
-/// a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong place and for a
-/// leak.
+/// From the seed to everywhere below the level that can be reached without crossing a wall. The free surface is at right angles to gravity,
+/// and has the level as its coordinate along the axis of the tank's top there where it lies over the seed. The lattice is fitted to the
+/// reached space: for a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong
+/// place and for a leak.
 FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spacing, const std::string& key);
 
 /// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no
 /// room.
 void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 
-/// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's level.
+/// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's surface.
 void check_watertight(const Basin& basin, double spacing, const FilledRegion& region);
 
 /// Throws Error if particles of two regions are nearer than half the spacing.

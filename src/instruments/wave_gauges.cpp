@@ -7,11 +7,15 @@
 namespace wavetank {
 namespace {
 
-/// Heights at which the vertical line through (x, y) meets the mesh.
-std::vector<double> crossings(const TriangleMesh& mesh, double x, double y) {
+/// With the axis of the tank's top as z: x, y, z stay where that is z.
+Vector3d upright(const Vector3d& v, int axis) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
+
+/// Where the line along the axis through the place meets the mesh: coordinates along the axis.
+std::vector<double> crossings(const TriangleMesh& mesh, const Vector3d& place, int axis) {
+  const double x = upright(place, axis).x(), y = upright(place, axis).y();
   std::vector<double> heights;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const Vector3d a = upright(mesh.corner(t, 0), axis), b = upright(mesh.corner(t, 1), axis), c = upright(mesh.corner(t, 2), axis);
     const double area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
     if (std::abs(area) < 1e-14) continue;  // upright: the line lies in it or misses it
     const double beta = ((x - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (y - a.y())) / area;
@@ -22,19 +26,19 @@ std::vector<double> crossings(const TriangleMesh& mesh, double x, double y) {
   return heights;
 }
 
-/// The floor under a gauge: the lowest wall of the tank that bounds the open space from below. A tank with thick walls has its outer skin
-/// below that: a sampled wall element marks the wetted one.
-double floor_height(const Layout& layout, double x, double y) {
-  double floor = layout.domain.min.z();
+/// The floor under a gauge, as its coordinate along the axis: the lowest wall of the tank that bounds the open space from below. A tank
+/// with thick walls has its outer skin below that: a sampled wall element marks the wetted one.
+double floor_height(const Layout& layout, const Vector3d& place, const Top& top) {
+  double floor = top.bottom_of(layout.domain);
   double nearest = std::numeric_limits<double>::max();
   std::vector<double> heights;
-  if (!layout.meshes.empty()) heights = crossings(layout.meshes[0], x, y);
+  if (!layout.meshes.empty()) heights = crossings(layout.meshes[0], place, top.axis);
   for (const WallElement& wall : layout.walls) {
-    if (wall.owner != 0 || wall.normal.z() > -0.3) continue;
-    const double away = std::hypot(wall.centre.x() - x, wall.centre.y() - y);
+    if (wall.owner != 0 || top.way * wall.normal[top.axis] > -0.3) continue;
+    const double away = upright(wall.centre - place, top.axis).head<2>().norm();
     if (away < nearest) {
       nearest = away;
-      floor = wall.centre.z();
+      floor = wall.centre[top.axis];
     }
   }
   // the mesh's own height there is exact where an element's centre beside the line, on a slope, is not
@@ -54,7 +58,8 @@ bool within(const Box& box, const Vector3d& point) {
 }  // namespace
 
 WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world)
-    : world_(world), interval_(0.25 * layout.spacing) {
+    : world_(world), interval_(0.25 * layout.spacing), way_(top_of(scene).way) {
+  const Top top = top_of(scene);
   std::vector<Solid> fixed;
   for (std::size_t b = 0; b < scene.bodies.size() && !scene.instruments.wave_gauges.empty(); ++b) {
     const Box* box = std::get_if<Box>(&scene.bodies[b].shape);
@@ -68,11 +73,13 @@ WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& so
   for (const WaveGaugeCase& gauge : scene.instruments.wave_gauges) {
     Line line;
     line.begin = places_.size();
-    const double y = scene.dimensions == 2 ? 0.0 : gauge.position.y();
-    line.floor = floor_height(layout, gauge.position.x(), y);
-    const int count = static_cast<int>(std::floor((layout.domain.max.z() - line.floor) / interval_)) + 1;
+    Vector3d place = gauge.position;
+    if (scene.dimensions == 2) place.y() = 0;
+    line.floor = floor_height(layout, place, top);
+    const int count = static_cast<int>(std::floor(way_ * (top.of(layout.domain) - line.floor) / interval_)) + 1;
     for (int k = 0; k < count; ++k) {
-      places_.emplace_back(gauge.position.x(), y, line.floor + k * interval_);
+      place[top.axis] = line.floor + way_ * k * interval_;
+      places_.push_back(place);
       open_.push_back(std::none_of(fixed.begin(), fixed.end(), [&](const Solid& solid) { return contains(solid, places_.back()); }));
     }
     line.end = places_.size();
@@ -115,7 +122,7 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
       if (k + 1 < line.end) column += 0.5 * interval_ * (here + above);
       above = here;
     }
-    levels.push_back(line.floor + column);
+    levels.push_back(line.floor + way_ * column);
   }
   return levels;
 }

@@ -56,7 +56,7 @@ double fastest_wall(const Case& scene, const Layout& layout, const ResourceResol
     } else if (motion == Motion::commanded) {
       speed = rigid.command.greatest_speed.value_or(0) + rigid.command.greatest_angular_speed.value_or(0) * reach_of(box, reference);
     } else if (motion == Motion::free) {
-      const double fall = std::max(box.min.z() - layout.domain.min.z(), 0.0);
+      const double fall = std::max(lowest_of(box, layout.up) - lowest_of(layout.domain, layout.up), 0.0);
       speed = rigid.velocity.norm() + std::sqrt(2.0 * scene.gravity.norm() * fall);
     }
     fastest = std::max(fastest, speed);

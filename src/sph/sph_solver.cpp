@@ -114,6 +114,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
     for (int axis = 0; axis < 3; ++axis) state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = static_cast<Real>(relative[axis]);
     state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
+  up_ = layout.up;
   levels_ = layout.levels;
   state_.upload(state);
   id_.upload(id);

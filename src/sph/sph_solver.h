@@ -61,6 +61,8 @@ class SphSolver final : public Solver {
     surroundings_.sweep(kernel, count, state, walls, others...);
   }
 
+  /// Gravity's part along which the water is at rest at the start.
+  Eigen::Vector3d gravity_at_rest() const { return case_.gravity.dot(up_) * up_; }
   void set_hydrostatic();
   /// Zero velocities, and all that follows from the positions and compressions.
   StepReport start_at_rest();
@@ -106,7 +108,8 @@ class SphSolver final : public Solver {
   double greatest_speed_ = 0;   ///< of a particle at the end of the last step, m/s
   bool load_lost_ = false;      ///< in this step, to values that are not finite
   double fastest_wall_ = 0;     ///< of any point of a body, m/s
-  std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
+  Eigen::Vector3d up_;          ///< along which the start is hydrostatic
+  std::vector<double> levels_;  ///< by particle id, for that: heights along `up_`
   Buffer state_, rates_, gradient_;
   Buffer half_;  ///< the middle of the step; then what the state is sorted into
   compute::Buffer<std::uint32_t> id_, spare_id_;

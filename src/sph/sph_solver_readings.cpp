@@ -56,8 +56,14 @@ FluidEnergies SphSolver<Real>::energies() {
   FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
-  const Eigen::Vector3d floor = discretisation_.lower + Eigen::Vector3d::Constant(0.5 * discretisation_.spacing) - discretisation_.origin;
-  energies.potential += energies.mass * case_.gravity.z() * floor.z();
+  const Eigen::Vector3d up = upward(case_);
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = 0.5 * discretisation_.spacing;
+    if (up[axis] > 0) floor[axis] = discretisation_.lower[axis] + margin - discretisation_.origin[axis];
+    if (up[axis] < 0) floor[axis] = discretisation_.upper[axis] - margin - discretisation_.origin[axis];
+  }
+  energies.potential += energies.mass * case_.gravity.dot(floor);
   return energies;
 }
 

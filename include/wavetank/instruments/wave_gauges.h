@@ -9,7 +9,8 @@
 
 namespace wavetank {
 
-/// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
+/// Levels on upright lines, along the axis of the tank's top. A gauge reads the coordinate of the floor on it, and from there on the water
+/// on its line, ∫ Σ W V / γ dz where that is z: the depth under a free
 /// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
 /// A body on the line counts as water where water stands on it, and not where it is dry; bodies that move are looked for where they are.
 /// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
@@ -22,7 +23,7 @@ class WaveGauges {
 
  private:
   struct Line {
-    double floor = 0;                ///< z where the line begins, m
+    double floor = 0;                ///< coordinate where the line begins, m
     std::size_t begin = 0, end = 0;  ///< its points
   };
   struct Solid {  ///< a body that moves, as the case's geometry has it
@@ -36,6 +37,7 @@ class WaveGauges {
 
   const RigidWorld& world_;
   double interval_ = 0;  ///< m between points
+  int way_ = 1;          ///< of the tank's top
   std::vector<Line> lines_;
   std::vector<Vector3d> places_;
   std::vector<char> open_;  ///< of each point: not inside a fixed body

@@ -62,7 +62,7 @@ class PointSet {
 /// In the frame that the fluid is solved in.
 struct FluidEnergies {
   double kinetic = 0;                                     ///< J (2-D: J/m)
-  double potential = 0;                                   ///< J, under the case's gravity, about z of the tank's floor
+  double potential = 0;                                   ///< J, under the case's gravity, about the tank's lowest place
   double compression = 0;                                 ///< J
   double mass = 0;                                        ///< kg (2-D: kg/m)
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
@@ -136,10 +136,10 @@ class Solver {
   virtual PackingReport pack(int iterations, const std::function<void(double fraction)>& progress) = 0;
   /// Hydrostatic pressure, at rest, from the present positions; the first Δt.
   virtual StepReport start() = 0;
-  /// start(), and then the water comes to rest in what the particles make of hydrostatics: steps with damped velocities, gravity's vertical
-  /// part alone and the lid where it is not on top, for `periods` times 4 H/c₀, the slowest period of the sound in water of the greatest
-  /// depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a report in violation
-  /// ends it early.
+  /// start(), and then the water comes to rest in what the particles make of hydrostatics: steps with damped velocities, gravity's
+  /// part along Layout::up alone and the lid where it is not on top, for `periods` times 4 H/c₀, the slowest period of the sound in water
+  /// of the greatest depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a
+  /// report in violation ends it early.
   virtual StepReport settle(double periods, const std::function<void(double fraction)>& progress) = 0;
   /// One time step of the case's integrator. Without a mover walls stay where they are.
   virtual StepReport advance(WallMover* mover = nullptr) = 0;
