@@ -1,5 +1,5 @@
 // Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
-// relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
+// relative to the wall; one that rounding or a violent step put behind the wall, or through it beside an edge or a corner, is set back onto it. The splash guard does the same above the rim of an
 // open tank, where there is no wall: as if the tank's walls went on upwards from the rim, and at the sides of the tank's bounding box. Where bodies are
 // free (GUARD_IMPULSES), what each particle loses is kept for them, by the walls' owners.
 #include "walls.cl"
@@ -29,6 +29,19 @@ INLINE void lose(wall_sweep_t* a, int owner, vector_t velocity) {
 }
 #endif
 
+// Whether the particle went through the wall in this step: from a wall's front past its edge or corner it may come out behind two walls, over neither.
+INLINE bool went_through(const wall_sweep_t* a, __constant const parameters_t* p, int s, const contact_t* c, real x, real y, real z) {
+  if (c->distance >= R(0.0) || c->distance < -p->spacing || c->beside > p->spacing || a->above_rim) return false;
+  // where it was, seen from where the wall is now
+  const vector_t carried = wall_velocity(a->walls, s, c->normal, a->from.x, a->from.y, a->from.z);
+  const vector_t way = make_vector(x - a->from.x - a->step * carried.x, y - a->from.y - a->step * carried.y, z - a->from.z - a->step * carried.z);
+  const real before = c->distance + dot3(c->normal, way);
+  if (before < -BORDER * p->spacing) return false;
+  const real back = c->distance / fmax(fmax(before, R(0.0)) - c->distance, R(1.0e-6) * p->spacing);  // to the plane, of the way; negative
+  const contact_t there = touch_wall(p, a->walls, s, x + back * way.x, y + back * way.y, z + back * way.z);
+  return there.beside <= BORDER * p->spacing;
+}
+
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
   contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
@@ -52,8 +65,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   const real least = R(0.0);
 #endif
   // behind a wall as far as half a spacing on the wall itself, by no more than the guard distance beside it: there a body's own side may lie
+  const bool through = went_through(a, p, s, &c, x + a->x, y + a->y, z + a->z);
   const real deepest = c.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
-  if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest) return;
+  if (!through && (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest)) return;
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x, y, z);
   const real approach = (a->u - wall.x) * c.normal.x + (a->v - wall.y) * c.normal.y + (a->w - wall.z) * c.normal.z;
   if (approach > R(0.0)) {
@@ -74,6 +88,15 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 }
 
 #include "sweep.cl"
+
+// A particle set back onto one wall may now be behind the next: in a corner of three dimensions three hold it.
+INLINE void hold(wall_sweep_t* a, __constant const parameters_t* p, const walls_t* walls, __global const real* images, real x, real y, real z) {
+  for (int pass = 0; pass < DIMENSIONS; ++pass) {
+    const vector_t before = make_vector(a->x, a->y, a->z);
+    sweep_walls(a, p, walls, images, x, y, z);
+    if (fabs(a->x - before.x) + fabs(a->y - before.y) + fabs(a->z - before.z) < R(1.0e-4) * p->spacing) return;
+  }
+}
 
 typedef struct {
   real move, speed;
@@ -137,7 +160,7 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
 #if GUARD_IMPULSES
   for (int slot = 0; slot < GUARD_OWNERS; ++slot) a.owners[slot] = NO_OWNER;
 #endif
-  if (near) sweep_walls(&a, p, &walls, images, x, y, z);
+  if (near) hold(&a, p, &walls, images, x, y, z);
   a.above_rim = above_rim;
   if (above_rim) {
     const real at_rim = p->top_way * (p->rim - R(0.25) * p->spacing);
