@@ -180,6 +180,8 @@ struct Simulation::Parts {
   }
 
   void advance();
+  /// The next step is short enough for what walls do in it.
+  void shorten_step();
   void check(const StepReport& report);
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
   void check_bodies();
@@ -303,7 +305,18 @@ void Simulation::advance() {
   }
 }
 
+void Simulation::Parts::shorten_step() {
+  if (!world.anything_moves()) return;
+  coupling.set_time(time);
+  const double allowed = coupling.allowed_step(time_step);
+  if (!(allowed >= discretisation.least_time_step) && time_step >= discretisation.least_time_step)
+    throw Violation("a body jumps: it would move by more than " + number(Discretisation::wall_reach * discretisation.spacing) + " m in " +
+                    number(discretisation.least_time_step) + " s," + when());
+  time_step = solver->shorten_step(allowed);
+}
+
 void Simulation::Parts::advance() {
+  shorten_step();
   const double next_time = time + time_step;
   recorder.before_step(*solver, time, next_time);
   coupling.set_time(time);

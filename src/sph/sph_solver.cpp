@@ -16,9 +16,6 @@ bool moves(const WallMotion& motion) {
            motion.angular_acceleration.isZero(0) && motion.surface_velocity.isZero(0));
 }
 
-// Of the spacing, how far a wall may move in a step: the guard looks a quarter of the spacing far.
-constexpr double wall_reach = 0.2;
-
 bool all_finite(const std::vector<WallWrench>& wrenches) {
   for (const WallWrench& wrench : wrenches)
     for (const Eigen::Vector3d& part : wrench)
@@ -273,8 +270,16 @@ StepReport SphSolver<Real>::advance(WallMover* mover) {
 }
 
 template <class Real>
+double SphSolver<Real>::shorten_step(double longest) {
+  if (!(longest < step_)) return step_;
+  const Real step = static_cast<Real>(longest);
+  report_.memory().write(&step, sizeof step, field::report_step * sizeof step);
+  return step_ = step;
+}
+
+template <class Real>
 StepReport SphSolver<Real>::watch() {
-  const double longest = std::min(time_step_limit_, wall_reach * discretisation_.spacing / fastest_wall_);
+  const double longest = std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_);
   kernels_.watch_chunks.launch(chunks_, surroundings_.parameters, count_, state_, rates_, stride_, guarded_.hits, watches_, alarms_);
   kernels_.watch_total.launch(1, surroundings_.parameters, chunks_, watches_, alarms_, static_cast<Real>(longest), report_);
   const std::vector<Real> values = report_.download();

@@ -34,6 +34,7 @@ class SphSolver final : public Solver {
   StepReport advance(WallMover* mover) override;
   void set_wall_motions(const WallMotions& motions) override;
   void limit_time_step(double limit) override { time_step_limit_ = limit; }
+  double shorten_step(double longest) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
   std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;

@@ -28,6 +28,7 @@ class ClockedFluid final : public Solver {
   StepReport advance(WallMover*) override { return {}; }
   void set_wall_motions(const WallMotions&) override {}
   void limit_time_step(double) override {}
+  double shorten_step(double) override { return 0; }
   std::size_t particle_count() const override { return 0; }
   std::optional<ThinWall> thinnest_wall() const override { return {}; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {

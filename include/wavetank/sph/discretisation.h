@@ -10,6 +10,9 @@ namespace wavetank {
 
 /// What the solver derives from a case and its layout once, in double precision.
 struct Discretisation {
+  /// Of the spacing, how far a wall may move in a step: the guard looks a quarter of the spacing far.
+  static constexpr double wall_reach = 0.2;
+
   int dimensions = 3;
   double spacing = 0;                                ///< Δx, m
   double smoothing_length = 0;                       ///< h = R/2, m

@@ -148,6 +148,8 @@ class Solver {
   virtual void set_wall_motions(const WallMotions& motions) = 0;
   /// The next steps are no longer than this, s, whatever the fluid allows.
   virtual void limit_time_step(double limit) = 0;
+  /// The next step alone is no longer than this, s, greater than 0. Returns its length.
+  virtual double shorten_step(double longest) = 0;
 
   virtual std::size_t particle_count() const = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
