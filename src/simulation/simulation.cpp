@@ -183,6 +183,8 @@ struct Simulation::Parts {
   /// The next step is short enough for what walls do in it.
   void shorten_step();
   void check(const StepReport& report);
+  /// Throws Violation where particles lie upon each other instead of filling their volume.
+  void check_volume();
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
   void check_bodies();
   std::string when() const;
@@ -250,6 +252,17 @@ void Simulation::Parts::check(const StepReport& r) {
     throw Violation("the time step collapsed to " + number(r.time_step) + " s (greatest speed " + number(r.greatest_speed) +
                     " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when());
   check_bodies();
+}
+
+void Simulation::Parts::check_volume() {
+  constexpr std::uint64_t interval = 200;  // steps: it takes long to come about, and a look at it as long as half a step
+  constexpr double most = 0.1;             // of the volume; impacts stay far below
+  if (step % interval != 0) return;
+  const LostVolume volume = solver->lost_volume();
+  if (!(volume.lost > most * volume.whole)) return;
+  const std::string unit = scene.dimensions == 2 ? " m²" : " m³";
+  throw Violation("of the water's volume of " + number(volume.whole) + unit + " by its density, " + number(volume.lost, "%.3g") + unit +
+                  " are missing: particles lie upon each other, most of all at " + point(volume.place) + " m," + when());
 }
 
 void Simulation::Parts::check_bodies() {
@@ -326,6 +339,7 @@ void Simulation::Parts::advance() {
   ++step;
   guard_hits += static_cast<std::uint64_t>(report.guard_hits);
   check(report);
+  check_volume();
   time_step = report.time_step;
   recorder.after_step(*solver, last_time, next_time);
 }

@@ -62,6 +62,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       energy_total_(device, field::energy_count),
+      fillings_(device, stride_),
       alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();

@@ -41,6 +41,7 @@ class SphSolver final : public Solver {
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;
   FluidEnergies energies() override;
+  LostVolume lost_volume() override;
   FluidState download() override;
   PairCount count_pairs() override;
   std::vector<char> save() const override;
@@ -122,7 +123,7 @@ class SphSolver final : public Solver {
   Buffer loads_;
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
-  Buffer report_, watches_, energy_parts_, energy_total_;
+  Buffer report_, watches_, energy_parts_, energy_total_, fillings_;
   compute::Buffer<int> alarms_;
   SolverKernels kernels_;
   std::vector<Stage> stages_;

@@ -42,6 +42,7 @@ class ClockedFluid final : public Solver {
   }
   std::vector<WallWrench> wrenches() override { return {}; }
   FluidEnergies energies() override { return {time, 0, 0, 1}; }
+  LostVolume lost_volume() override { return {}; }
   FluidState download() override { return {}; }
   PairCount count_pairs() override { return {}; }
   std::vector<char> save() const override { return {}; }

@@ -115,6 +115,13 @@ class WallMover {
   virtual WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) = 0;
 };
 
+/// How much of the volume that the particles' densities say is not there, because they lie upon each other.
+struct LostVolume {
+  double lost = 0;                                  ///< m³ (2-D: m²)
+  double whole = 0;                                 ///< likewise, that of all particles by their densities
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of the particle that is most crowded, in the case's coordinates
+};
+
 /// Particle state on the host, in the device's order. Positions in the case's coordinates.
 struct FluidState {
   std::vector<std::uint32_t> id;
@@ -159,6 +166,8 @@ class Solver {
   /// One wrench an owner (0 the tank, 1 + i body i) about its centre, in the tank's axes.
   virtual std::vector<WallWrench> wrenches() = 0;
   virtual FluidEnergies energies() = 0;
+  /// Of particles in the open water; beside walls and under a free surface it is found too small.
+  virtual LostVolume lost_volume() = 0;
   virtual FluidState download() = 0;
   /// Of the present positions.
   virtual PairCount count_pairs() = 0;
