@@ -166,8 +166,29 @@ TEST_P(Guard, ParticlesStayInFrontOfTheFloorBesideABoxOffItsGrid) {
 }
 
 /// Lone particles thrown upwards and outwards from near the sides of an open tank; the number of steps until the watchdog speaks, or all.
-int throw_over_the_rim(bool splash_guard, double width, int steps) {
-  Case scene = box_case(Vector3d(1, width, 0.5), 0.1, spacing);
+int throw_over_the_rim(bool splash_guard, double width, int steps, const Top& top = {}) {
+  const double height = 0.5;
+  // between a tank that is open above and one whose top is another side
+  const auto turned = [&](Vector3d way) {
+    std::swap(way.z(), way[top.axis]);
+    return Vector3d(way.cwiseProduct(Vector3d::Ones() - (1 - top.way) * Vector3d::Unit(top.axis)));
+  };
+  const auto place_in_tank = [&](const Vector3d& upright) {
+    return Vector3d(turned(upright) + (top.way < 0 ? height : 0) * Vector3d::Unit(top.axis));
+  };
+  const auto upright = [&](Vector3d place) {
+    if (top.way < 0) place[top.axis] = height - place[top.axis];
+    std::swap(place.z(), place[top.axis]);
+    return place;
+  };
+  Vector3d size(1, width, height), filled(1, width, 0.1);
+  std::swap(size.z(), size[top.axis]);
+  std::swap(filled.z(), filled[top.axis]);
+  Case scene = box_case(size, 0.1, spacing);
+  scene.gravity = turned(scene.gravity);
+  Box water{Vector3d::Zero(), filled};
+  if (top.way < 0) water.min[top.axis] = height - 0.1, water.max[top.axis] = height;
+  scene.fluid.fill = {water};
   scene.fluid.sound_speed = sound_speed;
   scene.tank.splash_guard = splash_guard;
   std::vector<Vector3d> from, velocity;
@@ -180,10 +201,12 @@ int throw_over_the_rim(bool splash_guard, double width, int steps) {
     from.push_back(Vector3d(0.5 - 0.4 * side, width * (0.5 + 0.4 * side), 0.4));  // at a corner
     velocity.push_back(Vector3d(-side, side, 3));
   }
+  for (Vector3d& place : from) place = place_in_tank(place);
+  for (Vector3d& way : velocity) way = turned(way);
   Layout layout = lay_out(scene);
   layout.particles = from;
   layout.volumes.assign(from.size(), std::pow(spacing, scene.dimensions));
-  layout.levels.assign(from.size(), 0.1);
+  layout.levels.assign(from.size(), top.way > 0 ? 0.1 : 0.1 - height);
   Tank tank(scene, layout);
   tank.solver->start();
   StateBytes<float> state(*tank.solver);
@@ -195,7 +218,8 @@ int throw_over_the_rim(bool splash_guard, double width, int steps) {
     const StepReport report = tank.solver->advance();
     if (report.offender >= 0) return step;
     time += report.time_step;
-    for (const Vector3d& place : tank.solver->download().position) {
+    for (const Vector3d& position : tank.solver->download().position) {
+      const Vector3d place = upright(position);
       highest = std::max(highest, place.z());
       const double outside = std::max({-place.x(), place.x() - 1, -place.y(), place.y() - width});
       if (splash_guard) EXPECT_LT(outside, 1e-5) << "after " << time << " s at " << place.transpose();
@@ -209,6 +233,11 @@ int throw_over_the_rim(bool splash_guard, double width, int steps) {
 TEST(SplashGuard, KeepsSprayOverTheTank) {
   EXPECT_EQ(throw_over_the_rim(true, 0.6, 240), 240);
   EXPECT_EQ(throw_over_the_rim(true, 0, 240), 240);
+}
+
+TEST(SplashGuard, KeepsSprayOverATankWhoseTopIsAnotherSide) {
+  for (const Top& top : {Top{1, 1}, Top{0, -1}, Top{2, -1}}) EXPECT_EQ(throw_over_the_rim(true, 0.6, 240, top), 240) << top.axis;
+  EXPECT_EQ(throw_over_the_rim(true, 0, 240, Top{0, 1}), 240);
 }
 
 // A tank that does not fill its bounding box: what comes down outside its walls would be lost.
