@@ -153,16 +153,19 @@ void fit_axis(FilledRegion& region, int axis, double low, double high, double do
   region.count[axis] = all;
 }
 
-FilledRegion lattice_below(const Basin& basin, const Box& bounds, double spacing, const std::string& key) {
+/// The lattice ends at the bounds' top, and goes on beyond its other sides.
+FilledRegion lattice_below(const Basin& basin, const Box& bounds, double spacing, const FreeSurface& surface, const std::string& key) {
   FilledRegion region;
   region.key = key;
-  region.level = bounds.max.z();
+  region.surface = surface;
   region.first = region.step = Vector3d::Zero();
   region.count = Vector3i::Ones();
   for (int axis = 0; axis < 3; ++axis) {
     if (basin.dimensions == 2 && axis == 1) continue;
-    const double top = axis == 2 ? bounds.max.z() : basin.domain.max[axis];
-    fit_axis(region, axis, bounds.min[axis], bounds.max[axis], basin.domain.min[axis], top, spacing);
+    const bool ends = axis == basin.top.axis;
+    const double low = ends && basin.top.way < 0 ? bounds.min[axis] : basin.domain.min[axis];
+    const double high = ends && basin.top.way > 0 ? bounds.max[axis] : basin.domain.max[axis];
+    fit_axis(region, axis, bounds.min[axis], bounds.max[axis], low, high, spacing);
   }
   allocate(region, key);
   return region;
@@ -186,8 +189,9 @@ bool start_flood(const Basin& basin, const FilledRegion& region, const Vector3d&
   return !queue.empty();
 }
 
-/// Floods the lattice; returns the box that the walls about the reached cells span. Sides without a wall keep the domain's.
-Box flood_lattice(const Basin& basin, const Vector3d& seed, FilledRegion& region) {
+/// Floods the lattice within `bounds`; returns the box that the walls about the reached cells span. The top keeps that of the bounds, and
+/// sides without a wall the domain's.
+Box flood_lattice(const Basin& basin, const Vector3d& seed, const Box& bounds, FilledRegion& region) {
   std::vector<std::size_t> queue;
   if (!start_flood(basin, region, seed, queue)) {
     throw Error(region.key + ": about the seed " + describe(seed) + " m there is no room for a particle; move it away from the walls");
@@ -195,23 +199,26 @@ Box flood_lattice(const Basin& basin, const Vector3d& seed, FilledRegion& region
   for (const std::size_t c : queue) region.filled[c] = 1;
   Box reached = basin.domain;
   Box walls{basin.domain.max, basin.domain.min};
-  walls.max.z() = region.level;
+  const Top& top = basin.top;
+  double& wall_on_top = top.way > 0 ? walls.max[top.axis] : walls.min[top.axis];
+  wall_on_top = top.of(bounds);
   while (!queue.empty()) {
     const std::size_t c = queue.back();
     queue.pop_back();
     const Vector3d from = region.position[c];
     visit_neighbours(region, cell_at(region, c), [&](const Cell& other, int axis, int way) {
-      if (axis == 2 && way > 0 && other[2] >= region.count[2]) return;  // the free surface
+      if (!region.surface.wets(centre_of(region, other))) return;
       if (is_inside(region, other) && region.filled[region.index(other[0], other[1], other[2])]) return;
       Vector3d to = from;
       to[axis] += way * region.step[axis];
       if (const auto crossing = basin.grid->first_crossing(from, to)) {
         const double wall = from[axis] + crossing->fraction * (to[axis] - from[axis]);
-        if (way < 0) walls.min[axis] = std::min(walls.min[axis], wall);
-        if (way > 0 && axis < 2) walls.max[axis] = std::max(walls.max[axis], wall);
+        const bool on_top = axis == top.axis && way == top.way;
+        if (way < 0 && !on_top) walls.min[axis] = std::min(walls.min[axis], wall);
+        if (way > 0 && !on_top) walls.max[axis] = std::max(walls.max[axis], wall);
         return;
       }
-      if (!is_inside(region, other) || to[axis] < basin.domain.min[axis] || (axis < 2 && to[axis] > basin.domain.max[axis])) {
+      if (!is_inside(region, other) || to[axis] < basin.domain.min[axis] || to[axis] > basin.domain.max[axis]) {
         throw_leak(region.key, 0.5 * (from + to));
       }
       const std::size_t o = region.index(other[0], other[1], other[2]);
@@ -222,7 +229,7 @@ Box flood_lattice(const Basin& basin, const Vector3d& seed, FilledRegion& region
   for (int axis = 0; axis < 3; ++axis) {
     if (walls.min[axis] < walls.max[axis]) reached.min[axis] = walls.min[axis], reached.max[axis] = walls.max[axis];
   }
-  reached.max.z() = region.level;
+  (top.way > 0 ? reached.max : reached.min)[top.axis] = top.of(bounds);
   return reached;
 }
 
@@ -234,7 +241,9 @@ void check_seed(const Basin& basin, const FloodFill& flood, const std::string& k
       throw Error(seed + "lies outside the tank, which spans " + describe(basin.domain.min) + " to " + describe(basin.domain.max) + " m");
     }
   }
-  if (flood.seed.z() >= flood.level) throw Error(seed + "lies above the level z = " + describe(flood.level) + " m");
+  const Top& top = basin.top;
+  if (top.way * flood.seed[top.axis] >= top.way * flood.level)
+    throw Error(seed + "lies above the level " + "xyz"[top.axis] + " = " + describe(flood.level) + " m");
   for (const Solid& solid : basin.solids) {
     if (solid.contains(flood.seed)) throw Error(seed + "lies inside body '" + solid.name + "'");
   }
@@ -245,7 +254,7 @@ void check_seed(const Basin& basin, const FloodFill& flood, const std::string& k
 FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const std::string& key) {
   FilledRegion region;
   region.key = key;
-  region.level = box.max.z();
+  region.surface = {basin.top.normal(), basin.top.way * basin.top.of(box)};
   region.first = region.step = Vector3d::Zero();
   region.count = Vector3i::Ones();
   const std::string beyond = side_beyond(basin, box, 1e-3 * spacing);
@@ -269,16 +278,21 @@ FilledRegion fill_flood(const Basin& basin, const FloodFill& given, double spaci
   FloodFill flood = given;
   if (basin.dimensions == 2) flood.seed.y() = 0;
   check_seed(basin, flood, key);
-  if (flood.level > basin.domain.max.z() + 1e-3 * spacing) {
-    throw Error(key + ": the level z = " + describe(flood.level) + " m is above the tank's rim at " + describe(basin.domain.max.z()) +
-                " m");
+  const Top& top = basin.top;
+  Vector3d over_seed = flood.seed;
+  over_seed[top.axis] = flood.level;
+  const bool along_axis = basin.up == top.normal();
+  const FreeSurface surface{basin.up, along_axis ? top.way * flood.level : basin.up.dot(over_seed)};
+  if (surface.height > highest_of(basin.domain, basin.up) + 1e-3 * spacing) {
+    throw Error(key + ": the level " + "xyz"[top.axis] + " = " + describe(flood.level) + " m is above the tank's rim at " +
+                describe(top.of(basin.domain)) + " m");
   }
   Box bounds = basin.domain;
-  bounds.max.z() = flood.level;
-  FilledRegion coarse = lattice_below(basin, bounds, spacing, key);
-  bounds = flood_lattice(basin, flood.seed, coarse);
-  FilledRegion region = lattice_below(basin, bounds, spacing, key);
-  flood_lattice(basin, flood.seed, region);
+  if (along_axis) (top.way > 0 ? bounds.max : bounds.min)[top.axis] = flood.level;
+  FilledRegion coarse = lattice_below(basin, bounds, spacing, surface, key);
+  bounds = flood_lattice(basin, flood.seed, bounds, coarse);
+  FilledRegion region = lattice_below(basin, bounds, spacing, surface, key);
+  flood_lattice(basin, flood.seed, bounds, region);
   return region;
 }
 
@@ -302,8 +316,8 @@ void check_watertight(const Basin& basin, double spacing, const FilledRegion& re
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
     if (region.filled[c]) particles.push_back(region.position[c]);
   }
-  OpenSpace space(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::all);
-  space.flood(particles, region.level);
+  OpenSpace space(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::all, basin.top);
+  space.flood(particles, region.surface);
   if (space.escape()) throw_leak(region.key, *space.escape());
 }
 

@@ -25,6 +25,8 @@ struct Basin {
   Box domain;                          ///< bounding box of the tank's walls; 2-D: y = 0
   const TriangleGrid* grid = nullptr;  ///< all walls
   std::vector<Solid> solids;           ///< closed bodies
+  Vector3d up = Vector3d::UnitZ();     ///< unit, against gravity
+  Top top;                             ///< of the tank
 };
 
 /// One region of the case, filled: a regular lattice and which of its cells hold a particle.
@@ -35,7 +37,7 @@ struct FilledRegion {
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
   std::vector<char> taken;         ///< cells without a particle of their own because one beside them has all of a narrow gap's room
-  double level = 0;                ///< top of the region, m
+  FreeSurface surface;             ///< that it was filled up to
   double volume = 0;               ///< of a cell, m³ (2-D: m²)
 
   std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i; }
@@ -46,9 +48,10 @@ struct FilledRegion {
 /// tank.
 FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const std::string& key);
 
-/// From the seed to everywhere below the level that can be reached without crossing a wall. The lattice is fitted to the reached space: for
-/// a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong place and for a
-/// leak.
+/// From the seed to everywhere below the level that can be reached without crossing a wall. The free surface is at right angles to gravity,
+/// and has the level as its coordinate along the axis of the tank's top there where it lies over the seed. The lattice is fitted to the
+/// reached space: for a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong
+/// place and for a leak.
 FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spacing, const std::string& key);
 
 /// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no
@@ -59,7 +62,7 @@ void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 /// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region);
 
-/// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's level.
+/// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's surface.
 void check_watertight(const Basin& basin, double spacing, const FilledRegion& region);
 
 /// Warns of each body that parts water of a box from the rest of that box's, as an open boat does whose inside a box fills too.

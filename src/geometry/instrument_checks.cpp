@@ -6,9 +6,10 @@
 namespace wavetank {
 namespace {
 
-bool within(const Basin& basin, const Vector3d& place, bool ignore_z, double margin) {
+/// `ignored`: an axis, or -1.
+bool within(const Basin& basin, const Vector3d& place, int ignored, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
-    if ((axis == 1 && basin.dimensions == 2) || (axis == 2 && ignore_z)) continue;
+    if ((axis == 1 && basin.dimensions == 2) || axis == ignored) continue;
     if (place[axis] < basin.domain.min[axis] - margin || place[axis] > basin.domain.max[axis] + margin) return false;
   }
   return true;
@@ -21,7 +22,7 @@ void check_probe(const PressureProbeCase& probe, const Basin& basin, const OpenS
   if (basin.dimensions == 2) place.y() = 0;
   const double skin = 0.25 * spacing;
   const std::string name = "pressure probe '" + probe.name + "' at " + describe(probe.position) + " m ";
-  if (!within(basin, place, false, skin)) throw Error(name + "lies outside the tank; " + span(basin));
+  if (!within(basin, place, -1, skin)) throw Error(name + "lies outside the tank; " + span(basin));
   for (const Solid& solid : basin.solids) {
     if (!solid.contains(place)) continue;
     const auto surface = basin.grid->nearest(place, skin);
@@ -38,9 +39,12 @@ void check_probe(const PressureProbeCase& probe, const Basin& basin, const OpenS
 void check_instruments(const InstrumentsCase& instruments, const Basin& basin, const OpenSpace& open, double spacing) {
   for (const PressureProbeCase& probe : instruments.pressure_probes) check_probe(probe, basin, open, spacing);
   for (const WaveGaugeCase& gauge : instruments.wave_gauges) {
-    if (within(basin, gauge.position, true, 1e-6 * spacing)) continue;
-    throw Error("wave gauge '" + gauge.name + "' at x = " + describe(gauge.position.x()) + ", y = " + describe(gauge.position.y()) +
-                " m lies outside the tank; " + span(basin));
+    if (within(basin, gauge.position, basin.top.axis, 1e-6 * spacing)) continue;
+    std::string place;
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != basin.top.axis)
+        place += (place.empty() ? "" : ", ") + std::string(1, "xyz"[axis]) + " = " + describe(gauge.position[axis]);
+    throw Error("wave gauge '" + gauge.name + "' at " + place + " m lies outside the tank; " + span(basin));
   }
 }
 

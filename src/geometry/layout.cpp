@@ -56,8 +56,9 @@ Part read_tank(const Case& checked, const ResourceResolver& resolve) {
       if ((checked.dimensions == 3 || axis != 1) && !(tank->size[axis] > 0))
         throw Error(std::string("the box has no extent along ") + "xyz"[axis]);
     }
-    part.mesh = box_mesh(with_width(box, checked.dimensions), !tank->closed, "tank");
-    if (checked.dimensions == 2) part.outline = box_outline(box, !tank->closed);
+    const Top top = top_of(checked);
+    part.mesh = box_mesh(with_width(box, checked.dimensions), !tank->closed, "tank", top);
+    if (checked.dimensions == 2) part.outline = box_outline(box, !tank->closed, top);
   } else {
     part.mesh = read_mesh(std::get<MeshSource>(checked.tank.shape), checked.directory, resolve);
     check_surface(part.mesh);
@@ -133,6 +134,8 @@ Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box&
   Basin basin;
   basin.dimensions = checked.dimensions;
   basin.domain = domain;
+  basin.up = upward(checked);
+  basin.top = top_of(checked);
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) {
     basin.solids.push_back({checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions});
   }
@@ -171,7 +174,9 @@ double volume_bound(const Case& checked, const Box& domain) {
       size = box->max - box->min;
     } else {
       size = domain.max - domain.min;
-      size.z() = std::min(domain.max.z(), std::get<FloodFill>(region).level) - domain.min.z();
+      const Top top = top_of(checked);
+      const double depth = top.way * (std::get<FloodFill>(region).level - top.bottom_of(domain));
+      if (upward(checked) == top.normal()) size[top.axis] = std::min(size[top.axis], depth);
     }
     volume += size.x() * size.z() * (checked.dimensions == 2 ? 1.0 : size.y());
   }
@@ -207,13 +212,48 @@ double choose_spacing(const Case& checked, const std::vector<Part>& parts, Basin
   return volume > 0 ? std::pow(volume / number, power) : spacing;
 }
 
+/// Whether the lid has elements on the box's faces that look up.
+bool is_open_above(const Box& box, const std::vector<WallElement>& lid, const Basin& basin, double spacing) {
+  const Vector3d margin = Vector3d::Constant(0.1 * spacing);
+  return std::any_of(lid.begin(), lid.end(), [&](const WallElement& element) {
+    if (!(element.normal.dot(basin.up) > 0.05)) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (basin.dimensions == 2 && axis == 1) continue;
+      if (element.centre[axis] < box.min[axis] - margin[axis] || element.centre[axis] > box.max[axis] + margin[axis]) return false;
+    }
+    return true;
+  });
+}
+
+/// Of the layout: see there.
+Vector3d hydrostatic_direction(const Case& checked, const Basin& basin, const Layout& layout) {
+  if (basin.up == basin.top.normal()) return basin.up;
+  for (const FillRegion& region : checked.fluid.fill) {
+    const auto* box = std::get_if<Box>(&region);
+    if (box != nullptr && is_open_above(*box, layout.lid, basin, layout.spacing)) return basin.top.normal();
+  }
+  return basin.up;
+}
+
+double level_over(const Vector3d& place, const FillRegion& fill, const FreeSurface& surface, const Vector3d& up) {
+  if (surface.normal == up) return surface.height;
+  if (const auto* full = std::get_if<Box>(&fill)) return highest_of(*full, up);
+  return up.dot(place) + (surface.height - surface.normal.dot(place)) / surface.normal.dot(up);
+}
+
+void find_levels(const Case& checked, const std::vector<FilledRegion>& regions, Layout& layout) {
+  for (std::size_t f = 0; f < regions.size(); ++f)
+    for (std::size_t c = 0; c < regions[f].filled.size(); ++c)
+      if (regions[f].filled[c])
+        layout.levels.push_back(level_over(regions[f].position[c], checked.fluid.fill[f], regions[f].surface, layout.up));
+}
+
 void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
   for (const FilledRegion& region : regions) {
     for (std::size_t c = 0; c < region.filled.size(); ++c) {
       if (!region.filled[c]) continue;
       layout.particles.push_back(region.position[c]);
       layout.volumes.push_back(region.volume);
-      layout.levels.push_back(region.level);
     }
   }
 }
@@ -352,12 +392,14 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   standing.flip();
   for (std::size_t p = 1; p < parts.size(); ++p) standing[p] = standing[p] || assemblies[p] == 0;
   const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);
-  OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all);
+  OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all, basin.top);
   open.flood(layout.particles);
   layout.open_top = open.open_top();
   add_walls(parts, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
+  layout.up = hydrostatic_direction(checked, basin, layout);
+  find_levels(checked, regions, layout);
   check_instruments(checked.instruments, basin, open, layout.spacing);
   return layout;
 }

@@ -56,14 +56,16 @@ double TriangleMesh::signed_volume() const {
   return sum / 6.0;
 }
 
-TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name) {
+TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name, const Top& top) {
   TriangleMesh mesh;
   mesh.name = name;
   for (int k = 0; k < 8; ++k) {  // bit 0: x, bit 1: y, bit 2: z
     mesh.vertices.emplace_back(k & 1 ? box.max.x() : box.min.x(), k & 2 ? box.max.y() : box.min.y(), k & 4 ? box.max.z() : box.min.z());
   }
-  const int faces[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}};  // the top is last
-  for (int f = 0; f < (open_top ? 5 : 6); ++f) {
+  const int faces[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}};
+  const Top sides[6] = {{2, -1}, {1, -1}, {0, 1}, {1, 1}, {0, -1}, {2, 1}};
+  for (int f = 0; f < 6; ++f) {
+    if (open_top && sides[f].axis == top.axis && sides[f].way == top.way) continue;
     mesh.triangles.emplace_back(faces[f][0], faces[f][1], faces[f][2]);
     mesh.triangles.emplace_back(faces[f][0], faces[f][2], faces[f][3]);
   }

@@ -15,8 +15,8 @@ constexpr double most_voxels = 1.0e8;
 
 }  // namespace
 
-OpenSpace::OpenSpace(const Box& domain, int dimensions, double spacing, const TriangleGrid& grid, Walls walls)
-    : grid_(grid), walls_(walls), dimensions_(dimensions), domain_(domain) {
+OpenSpace::OpenSpace(const Box& domain, int dimensions, double spacing, const TriangleGrid& grid, Walls walls, const Top& top)
+    : grid_(grid), walls_(walls), dimensions_(dimensions), domain_(domain), top_(top) {
   const Vector3d size = domain.max - domain.min;
   const double across = dimensions == 2 ? 1.0 : size.y() / spacing;
   const double count = (size.x() / spacing) * across * (size.z() / spacing);
@@ -38,16 +38,17 @@ Vector3d OpenSpace::centre(const int voxel[3]) const {
   return domain_.min + Vector3d((voxel[0] + 0.5) * side_[0], (voxel[1] + 0.5) * side_[1], (voxel[2] + 0.5) * side_[2]);
 }
 
-void OpenSpace::step(const int voxel[3], const Vector3d& position, int axis, int way, double top, std::vector<std::size_t>& next) {
+void OpenSpace::step(const int voxel[3], const Vector3d& position, int axis, int way, const FreeSurface& surface,
+                     std::vector<std::size_t>& next) {
   int other[3] = {voxel[0], voxel[1], voxel[2]};
   other[axis] += way;
   const bool outside = other[axis] < 0 || other[axis] >= count_[axis];
-  const bool over_the_top = outside && axis == 2 && way > 0;
+  const bool over_the_top = outside && axis == top_.axis && way == top_.way && std::isinf(surface.height);
   if (over_the_top ? open_top_ : outside && escape_) return;
   if (!outside && reached_[index(other)]) return;
   Vector3d target = position;
   target[axis] += way * side_[axis];
-  if (target.z() >= top || grid_.crosses(position, target, walls_)) return;
+  if (!surface.wets(target) || grid_.crosses(position, target, walls_)) return;
   if (over_the_top) {
     open_top_ = true;
     return;
@@ -60,7 +61,7 @@ void OpenSpace::step(const int voxel[3], const Vector3d& position, int axis, int
   next.push_back(index(other));
 }
 
-void OpenSpace::flood(const std::vector<Vector3d>& from, double top) {
+void OpenSpace::flood(const std::vector<Vector3d>& from, const FreeSurface& surface) {
   std::vector<std::size_t> queue, next;
   const auto enter = [&](const Vector3d& point, const int voxel[3]) {
     const std::size_t i = index(voxel);
@@ -93,8 +94,8 @@ void OpenSpace::flood(const std::vector<Vector3d>& from, double top) {
       const Vector3d position = centre(voxel);
       for (int axis = 0; axis < 3; ++axis) {
         if (dimensions_ == 2 && axis == 1) continue;
-        step(voxel, position, axis, -1, top, next);
-        step(voxel, position, axis, +1, top, next);
+        step(voxel, position, axis, -1, surface, next);
+        step(voxel, position, axis, +1, surface, next);
       }
     }
     queue.swap(next);

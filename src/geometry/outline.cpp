@@ -98,9 +98,13 @@ void visit_segments(const Outline& outline, Visit visit) {
 
 }  // namespace
 
-Outline box_outline(const Box& box, bool open_top) {
+Outline box_outline(const Box& box, bool open_top, const Top& top) {
   const double x0 = box.min.x(), x1 = box.max.x(), z0 = box.min.z(), z1 = box.max.z();
-  return {Polyline{{{x0, 0, z1}, {x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}}, !open_top}};
+  std::vector<Vector3d> corners = {{x0, 0, z1}, {x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}};
+  // the open side is that from the last corner to the first
+  const int first = top.axis == 2 ? (top.way > 0 ? 0 : 2) : (top.way > 0 ? 3 : 1);
+  std::rotate(corners.begin(), corners.begin() + first, corners.end());
+  return {Polyline{corners, !open_top}};
 }
 
 Outline cut_mesh(const TriangleMesh& mesh) {

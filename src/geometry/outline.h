@@ -15,7 +15,7 @@ struct Polyline {
 using Outline = std::vector<Polyline>;
 
 /// The outline of a box: four edges, or three without the top.
-Outline box_outline(const Box& box, bool open_top);
+Outline box_outline(const Box& box, bool open_top, const Top& top = {});
 
 /// Where the mesh cuts the plane y = 0. Throws Error if it does not.
 Outline cut_mesh(const TriangleMesh& mesh);

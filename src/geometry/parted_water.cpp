@@ -77,7 +77,7 @@ std::map<int, PartedWater> find_parted_water(const Basin& basin, double spacing,
   OpenSpace rest(basin.domain, basin.dimensions, spacing, *basin.grid, Walls::all);
   std::vector<Vector3d> start;
   for (const std::size_t c : groups.front()) start.push_back(region.position[c]);
-  rest.flood(start, region.level);
+  rest.flood(start, region.surface);
   for (std::size_t g = 1; g < groups.size(); ++g) {
     const auto is_joined = [&](std::size_t c) { return rest.reached(region.position[c], region.position[c]); };
     if (std::any_of(groups[g].begin(), groups[g].end(), is_joined)) continue;

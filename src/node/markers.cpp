@@ -153,8 +153,10 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   }
   id = 0;
   for (const WaveGaugeCase& gauge : checked.instruments.wave_gauges) {
-    const Vector3d foot(gauge.position.x(), gauge.position.y(), layout.domain.min.z());
-    const Vector3d top(foot.x(), foot.y(), layout.domain.max.z());
+    const Top over = top_of(checked);
+    Vector3d foot = gauge.position, top = foot;
+    foot[over.axis] = over.bottom_of(layout.domain);
+    top[over.axis] = over.of(layout.domain);
     Marker line = marker(checked, "gauges", id, Marker::LINE_LIST, colour(0.2F, 0.9F, 0.3F, 0.9F));
     line.scale.x = 0.001 * size;
     line.points = {point_message(foot), point_message(top)};

@@ -34,7 +34,10 @@ SampleMessages::SampleMessages(const Case& checked, const Layout& layout, const 
   }
   for (const WaveGaugeCase& gauge : checked.instruments.wave_gauges) {
     gauges_.names.push_back(gauge.name);
-    gauges_.positions.push_back(point_message({gauge.position.x(), gauge.position.y(), layout.domain.min.z()}));
+    const Top top = top_of(checked);
+    Vector3d foot = gauge.position;
+    foot[top.axis] = top.bottom_of(layout.domain);
+    gauges_.positions.push_back(point_message(foot));
   }
   wrench_topics_.push_back(wrench_topic(tank_name));
   for (const BodyCase& body : checked.bodies) wrench_topics_.push_back(wrench_topic(body.name));

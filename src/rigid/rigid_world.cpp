@@ -39,6 +39,8 @@ RigidState RigidWorld::state_in_tank(std::size_t owner) const {
   return seen_from(tank.state, tank.reference, state(owner));
 }
 
+std::vector<RigidState> RigidWorld::at_end(double time, double time_step) const { return parts_->ahead(time, time_step); }
+
 std::vector<RigidState> RigidWorld::at_middle(double time, double time_step) const { return parts_->at_middle(time, time_step); }
 
 void RigidWorld::advance(double time, double time_step, const std::vector<RigidLoad>& fluid) {

@@ -25,18 +25,17 @@ bool hangs_on_joint(std::size_t owner, const std::vector<Joint>& joints) {
 }
 
 /// Whether the boxes have nothing in common; in 2-D those of the sections.
-bool apart(const Box& box, const Box& domain, int dimensions, bool open_top) {
+bool apart(const Box& box, const Box& domain, int dimensions, const Top& top, bool open_top) {
   for (int axis = 0; axis < 3; ++axis) {
     if (dimensions == 2 && axis == 1) continue;
-    const bool over_the_rim = axis == 2 && open_top;
-    if (box.max[axis] < domain.min[axis] || (box.min[axis] > domain.max[axis] && !over_the_rim)) return true;
+    const int over_the_rim = axis == top.axis && open_top ? top.way : 0;
+    if ((box.max[axis] < domain.min[axis] && over_the_rim >= 0) || (box.min[axis] > domain.max[axis] && over_the_rim <= 0)) return true;
   }
   return false;
 }
 
 /// Whether a place has a facet under it that holds what comes from above.
-bool has_floor(const Vector3d& place, const Layout& layout, const std::vector<RigidOwner>& owners) {
-  const Vector3d down = -Vector3d::UnitZ();
+bool has_floor(const Vector3d& place, const Vector3d& down, const Layout& layout, const std::vector<RigidOwner>& owners) {
   return std::any_of(layout.facets.begin(), layout.facets.end(), [&](const Facet& facet) {
     const double slope = facet.normal.dot(down);
     const bool falls_too = facet.owner > 0 && owners[facet.owner].is_free();
@@ -52,17 +51,18 @@ bool has_floor(const Vector3d& place, const Layout& layout, const std::vector<Ri
 }  // namespace
 
 void check_places(const Case& scene, const Layout& layout, const std::vector<RigidOwner>& owners, const std::vector<Joint>& joints) {
+  const Top top = top_of(scene);
   for (std::size_t o = 1; o < owners.size(); ++o) {
     if (!owners[o].is_free() || hangs_on_joint(o, joints)) continue;
     const Box box = layout.meshes[o].bounding_box();
-    if (apart(box, layout.domain, scene.dimensions, layout.open_top))
+    if (apart(box, layout.domain, scene.dimensions, top, layout.open_top))
       throw Error(owners[o].what + " is free and starts wholly outside of the tank: it reaches from " + extent_text(box) +
                   ", the tank from " + extent_text(layout.domain) + "; put it inside, or over the tank if that is open");
     Vector3d middle = 0.5 * (box.min + box.max);
     if (scene.dimensions == 2) middle.y() = 0;
     const bool falls = scene.gravity.norm() > 0 && scene.tank.rigid.collision == CollisionShape::automatic &&
-                       scene.bodies[o - 1].rigid.collision != CollisionShape::none && !scene.tank.periodic[2];
-    if (falls && !has_floor(middle, layout, owners))
+                       scene.bodies[o - 1].rigid.collision != CollisionShape::none && !scene.tank.periodic[top.axis];
+    if (falls && !has_floor(middle, -upward(scene), layout, owners))
       log(LogLevel::warning, owners[o].what + " starts at " + place_text(middle) +
                                  " m over no wall that water can reach, and contacts know no other: should it sink there, the tank will "
                                  "not hold it.");

@@ -39,13 +39,11 @@ Section<FillRegion> fill_section() {
       .key_of<FloodFill>(Whole{}, "seed", &FloodFill::seed, position(), "m",
                          "A point inside a region bounded by walls: water fills the region from it ...")
       .required = true;
-  section.key_of<FloodFill>(Whole{}, "level", &FloodFill::level, number({}), "m", "... up to this z of the free surface.").required = true;
+  section
+      .key_of<FloodFill>(Whole{}, "level", &FloodFill::level, number({}), "m",
+                         "... up to this z of the free surface; with gravity nearer to x or y, that coordinate of it, over the seed.")
+      .required = true;
   section.exactly_one_of({{"box"}, {"seed", "level"}});
-  section.rule([](const FillRegion& region, const Setting& map, const std::string& path, const Context&) {
-    const auto* flood = std::get_if<FloodFill>(&region);
-    if (flood == nullptr || flood->seed.z() < flood->level) return;
-    refuse(*map.find("level"), {join_path(path, "level"), "m"}, "above the seed, " + map.find("seed")->brief());
-  });
   return section;
 }
 
@@ -74,7 +72,7 @@ Section<TankCase> tank_section() {
   Section<BoxTank> box;
   box.key("size", &BoxTank::size, size(), "m", "Inner length, width and height; the width is ignored in 2-D.").required = true;
   box.key("origin", &BoxTank::origin, position(), "m", "Corner of least coordinates.");
-  box.key("closed", &BoxTank::closed, flag(), "", "Whether the tank has a lid.");
+  box.key("closed", &BoxTank::closed, flag(), "", "Whether the tank has a lid; without one its side most nearly against gravity is open.");
   Section<TankCase> section;
   section.key_of<BoxTank>(&TankCase::shape, "box", Whole{}, section_of(box), "", "A rectangular tank.").required = true;
   add_mesh_keys(section, &TankCase::shape);
@@ -192,12 +190,13 @@ Section<InstrumentsCase> instruments_section() {
   gauge.key("name", &WaveGaugeCase::name, name(), "", "The gauge's name.").required = true;
   gauge
       .key("position", &WaveGaugeCase::position, gauge_position(), "m",
-           "Of the vertical line; a z may be given and is ignored; in 2-D also [x].")
+           "Of the vertical line; a z may be given and is ignored; in 2-D also [x]. With gravity nearer to y or x the line is along that: "
+           "[x, z] or [y, z].")
       .required = true;
   Section<InstrumentsCase> section;
   section.key("pressure_probes", &InstrumentsCase::pressure_probes, list_of(probe), "", "Pressure probes.");
   section.key("wave_gauges", &InstrumentsCase::wave_gauges, list_of(gauge), "",
-              "Wave gauges: the level of the free surface on vertical lines.");
+              "Wave gauges: the level of the free surface on lines along the axis nearest to gravity.");
   const Range rates = above_up_to(0, 1e6);
   section.key("rate", &InstrumentsCase::rate, number(rates), "Hz",
               "Samples a second of simulated time, of all instruments without a rate of their own.");
@@ -233,7 +232,7 @@ Section<Case> declare_case() {
   section.key("title", &Case::title, text(), "", "One line that says what the case is.");
   section.key("dimensions", &Case::dimensions, dimension_count(), "",
               "A 2-D case lies in the x–z plane; its positions may be given as [x, z].");
-  section.key("gravity", &Case::gravity, vector(), "m/s²", "In 2-D without a y component.");
+  section.key("gravity", &Case::gravity, vector(), "m/s²", "Of any direction; in 2-D without a y component.");
   section.key("duration", &Case::duration, number(greater_than(0)), "s", "Of simulated time.").required = true;
   section.key("device", &Case::device, nonempty_text(), "",
               "OpenCL device: `auto`, `cpu`, `gpu`, a part of the device's name, or \"PLATFORM:DEVICE\" by index, in quotes.");

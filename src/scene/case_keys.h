@@ -11,6 +11,9 @@ const Section<Case>& case_section();
 /// The same as one section without a name, for checks of structure and for the page of keys.
 const KeyDescription& case_keys();
 
+/// Where gauges stand depends on gravity: along its axis they have no place.
+void place_gauges(Case& read, const Setting& root);
+
 /// Checks that concern several keys of a case that has been read from `root`: names given twice, gravity out of a 2-D case's plane, ...
 void check_case(const Case& read, const Setting& root);
 

@@ -6,6 +6,7 @@
 #include "motion_keys.h"
 #include "motion_values.h"
 #include "wavetank/common/error.h"
+#include "wavetank/scene/upward.h"
 
 namespace wavetank::scene {
 namespace {
@@ -84,6 +85,18 @@ void check_periodic(const Case& read, const Setting& root) {
   }
 }
 
+void check_levels(const Case& read, const Setting& root) {
+  const Top top = top_of(read);
+  for (std::size_t f = 0; f < read.fluid.fill.size(); ++f) {
+    const auto* flood = std::get_if<FloodFill>(&read.fluid.fill[f]);
+    if (flood == nullptr || top.way * flood->seed[top.axis] < top.way * flood->level) continue;
+    const std::string path = join_path("fluid/fill", f);
+    refuse(nearest_setting(root, join_path(path, "level")), {join_path(path, "level"), "m"},
+           (top.way > 0 ? std::string("above the seed, ") : std::string("less than the seed's ") + "xyz"[top.axis] + ", ") +
+               nearest_setting(root, join_path(path, "seed")).brief());
+  }
+}
+
 void check_probes(const Case& read, const Setting& root) {
   for (std::size_t i = 0; i < read.instruments.pressure_probes.size(); ++i) {
     const std::string& name = read.instruments.pressure_probes[i].body;
@@ -99,17 +112,38 @@ void check_probes(const Case& read, const Setting& root) {
 
 }  // namespace
 
+void place_gauges(Case& read, const Setting& root) {
+  const int axis = top_of(read).axis;
+  if (axis == 2) return;
+  std::vector<WaveGaugeCase>& gauges = read.instruments.wave_gauges;
+  for (std::size_t i = 0; i < gauges.size(); ++i) {
+    const Setting& given = nearest_setting(root, join_path(join_path("instruments/wave_gauges", i), "position"));
+    Context context{read.dimensions};
+    Vector3d& place = gauges[i].position;
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < given.items.size(); ++k) numbers.push_back(number({}).read(given.items[k], {}, context));
+    const bool whole = numbers.size() == 3 || (read.dimensions == 2 && numbers.size() == 2);
+    if (whole)
+      place = Vector3d(numbers.front(), numbers.size() == 3 ? numbers[1] : 0.0, numbers.back());
+    else
+      place =
+          axis == 0 ? Vector3d(0, numbers.size() == 2 ? numbers[0] : 0.0, numbers.back()) : Vector3d(numbers.front(), 0, numbers.back());
+    place[axis] = 0;
+    if (read.dimensions == 2) place.y() = 0;
+  }
+}
+
 void check_case(const Case& read, const Setting& root) {
   if (read.dimensions == 2 && read.gravity.y() != 0.0) {
     refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "within the x–z plane of a 2-D case, [x, 0, z] or [x, z]");
   }
-  if (read.gravity.z() > 0.0) refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "downwards or zero along z: z at most 0");
   if (read.gravity.isZero(0.0) && !read.fluid.sound_speed) {
     throw Error(nearest_setting(root, "gravity").place.describe() +
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
   check_walls(read, root);
   check_periodic(read, root);
+  check_levels(read, root);
   check_joints(read, root);
   NameCheck names(read, root);
   names.check(read.bodies, "bodies");

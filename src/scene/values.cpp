@@ -294,10 +294,11 @@ Codec<Vector3d> gauge_position() {
             const bool flat = context.dimensions == 2;
             const auto numbers =
                 numbers_of(setting, item, flat ? 1 : 2, 3, flat ? "numbers [x], [x, z] or [x, y, z]" : "numbers [x, y] or [x, y, z]");
-            return Vector3d(numbers[0], flat ? 0.0 : numbers[1], 0.0);
+            return Vector3d(numbers[0], flat ? 0.0 : numbers[1], 0.0);  // place_gauges sets those of other axes
           },
           [](const Vector3d& value, const Context& context) -> std::optional<Setting> {
-            return vector_setting(value, context.dimensions == 2 ? 1 : 2);
+            const bool short_form = value.z() == 0 && (value.x() != 0 || value.y() == 0);  // with gravity along x, two numbers are y and z
+            return vector_setting(value, !short_form ? 3 : context.dimensions == 2 ? 1 : 2);
           }};
 }
 

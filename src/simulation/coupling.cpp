@@ -62,12 +62,17 @@ double greatest_ratio(const Surface& surface, const MassProperties& body, int di
 
 Coupling::Coupling(RigidWorld& world, const Case& scene, const Layout& layout, const Discretisation& d)
     : world_(world),
+      farthest_allowed_(Discretisation::wall_reach * d.spacing),
       gravity_(scene.gravity),
       tank_moves_(scene.tank.motion != Motion::fixed),
       belts_(world.count(), Vector3d::Zero()),
       relaxation_(world.count(), 1.0),
       felt_(world.count()),
       longest_time_step_(std::numeric_limits<double>::infinity()) {
+  for (std::size_t o = 0; o < world.count(); ++o) {
+    const Box box = layout.meshes[o].bounding_box();
+    reaches_.push_back((box.max - world.reference(o)).cwiseAbs().cwiseMax((box.min - world.reference(o)).cwiseAbs()).norm());
+  }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) belts_[b + 1] = scene.bodies[b].surface_velocity;
   for (std::size_t o = 0; o < world.count(); ++o) {
     const bool rides_free_tank = !world.moves(o) && world.is_free(0);
@@ -122,6 +127,28 @@ WallMotions Coupling::motions_of(const std::vector<RigidState>& states) const {
     motion.angular_acceleration = seen.angular_acceleration;
   }
   return motions;
+}
+
+double Coupling::farthest(const WallMotions& from, const std::vector<RigidState>& to) const {
+  const WallMotions moved = motions_of(to);
+  double farthest = 0;
+  for (std::size_t o = 1; o < to.size(); ++o) {
+    const WallMotion &a = from.owners[o], &b = moved.owners[o];
+    const double turn = a.orientation.angularDistance(b.orientation);
+    farthest = std::max(farthest, (b.displacement - a.displacement).norm() + turn * reaches_[o]);
+  }
+  return farthest;
+}
+
+double Coupling::allowed_step(double time_step) const {
+  constexpr int most_halvings = 60;
+  const WallMotions from = now();
+  for (int k = 0; k < most_halvings; ++k) {
+    const double way = std::max(farthest(from, world_.at_middle(time_, time_step)), farthest(from, world_.at_end(time_, time_step)));
+    if (!(way > farthest_allowed_)) break;  // so too where a place is not finite: check_bodies names it
+    time_step *= std::max(0.5, 0.99 * farthest_allowed_ / way);
+  }
+  return time_step;
 }
 
 WallMotions Coupling::now() const { return motions_of(present()); }

@@ -32,6 +32,9 @@ class Coupling final : public WallMover {
   const Stopwatch& world_time() const { return world_time_; }
   /// The longest step in which the sound between the fluid and a free body does not grow, s; infinite without such bodies.
   double longest_time_step() const { return longest_time_step_; }
+  /// The longest part of the step from the present time in which no point of a body moves farther in the tank than walls may. Velocities
+  /// that are prescribed or commanded count as they will be, jumps too.
+  double allowed_step(double time_step) const;
 
   std::vector<double> save() const;
   void restore(const std::vector<double>& values);
@@ -43,7 +46,12 @@ class Coupling final : public WallMover {
   WallMotions motions_of(const std::vector<RigidState>& states) const;
   std::vector<RigidState> present() const;
 
+  /// The farthest that a point of a body moves in the tank from `from` to `to`, m.
+  double farthest(const WallMotions& from, const std::vector<RigidState>& to) const;
+
   RigidWorld& world_;
+  std::vector<double> reaches_;  ///< of each owner's bounding box from its reference point, m
+  double farthest_allowed_;      ///< m
   Vector3d gravity_;
   bool tank_moves_;
   std::vector<int> coupled_;

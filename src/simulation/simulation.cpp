@@ -57,7 +57,7 @@ double fastest_wall(const Case& scene, const Layout& layout, const ResourceResol
     } else if (motion == Motion::commanded) {
       speed = rigid.command.greatest_speed.value_or(0) + rigid.command.greatest_angular_speed.value_or(0) * reach_of(box, reference);
     } else if (motion == Motion::free) {
-      const double fall = std::max(box.min.z() - layout.domain.min.z(), 0.0);
+      const double fall = std::max(lowest_of(box, layout.up) - lowest_of(layout.domain, layout.up), 0.0);
       speed = rigid.velocity.norm() + std::sqrt(2.0 * scene.gravity.norm() * fall);
     }
     fastest = std::max(fastest, speed);
@@ -196,9 +196,13 @@ struct Simulation::Parts {
 
   /// One step with the samples that fall into it.
   void advance();
+  /// The next step is short enough for what walls do in it.
+  void shorten_step();
   /// The step alone.
   void step_on();
   void check(const StepReport& report);
+  /// Throws Violation where particles lie upon each other instead of filling their volume.
+  void check_volume();
   /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
   double loading_seconds();
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
@@ -230,6 +234,7 @@ struct Simulation::Parts {
   StepReport report;
   std::vector<double> reaches;  ///< of each owner, of its bounding box from its reference point at the start, m
   std::vector<bool> left_tank;  ///< of each owner: it has, and that was said
+  bool told_of_loss = false;    ///< of the water's volume
 };
 
 std::vector<char> Simulation::Parts::saved_bodies() const {
@@ -269,6 +274,19 @@ void Simulation::Parts::check(const StepReport& r) {
     throw Violation("the time step collapsed to " + number(r.time_step) + " s (greatest speed " + number(r.greatest_speed) +
                     " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when());
   check_bodies();
+}
+
+void Simulation::Parts::check_volume() {
+  constexpr std::uint64_t interval = 200;    // steps: it takes long to come about, and a look at it as long as half a step
+  constexpr double told = 0.03, most = 0.1;  // of the volume; dam breaks stay at 0.01
+  if (step % interval != 0) return;
+  const LostVolume volume = solver->lost_volume();
+  if (!(volume.lost > told * volume.whole)) return;
+  const std::string unit = scene.dimensions == 2 ? " m²" : " m³";
+  const std::string what = "of the water's volume of " + number(volume.whole) + unit + " by its density, " + number(volume.lost, "%.3g") +
+                           unit + " are missing: particles lie upon each other, most of all at " + point(volume.place) + " m";
+  if (volume.lost > most * volume.whole) throw Violation(what + "," + when());
+  if (!std::exchange(told_of_loss, true)) log(LogLevel::warning, what + ", at t = " + number(time) + " s.");
 }
 
 void Simulation::Parts::check_bodies() {
@@ -336,7 +354,18 @@ void Simulation::advance() {
   }
 }
 
+void Simulation::Parts::shorten_step() {
+  if (!world.anything_moves()) return;
+  coupling.set_time(time);
+  const double allowed = coupling.allowed_step(time_step);
+  if (!(allowed >= discretisation.least_time_step) && time_step >= discretisation.least_time_step)
+    throw Violation("a body jumps: it would move by more than " + number(Discretisation::wall_reach * discretisation.spacing) + " m in " +
+                    number(discretisation.least_time_step) + " s," + when());
+  time_step = solver->shorten_step(allowed);
+}
+
 void Simulation::Parts::advance() {
+  shorten_step();
   const double last_time = time, next_time = time + time_step;
   recorder.before_step(*solver, last_time, next_time);
   step_on();
@@ -351,6 +380,7 @@ void Simulation::Parts::step_on() {
   ++step;
   guard_hits += static_cast<std::uint64_t>(report.guard_hits);
   check(report);
+  check_volume();
   time_step = report.time_step;
 }
 
@@ -365,6 +395,7 @@ void Simulation::reset() {
   parts.report = StepReport{};
   parts.report.time_step = parts.initial_time_step;
   parts.left_tank.assign(parts.left_tank.size(), false);
+  parts.told_of_loss = false;
   parts.recorder.take();
   parts.recorder.start(*parts.solver);
 }
@@ -551,8 +582,12 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   parts.report = solver.start();
   parts.time_step = parts.report.time_step;
   if (parts.world.anything_moves()) solver.set_wall_motions(parts.coupling.now());
+  parts.shorten_step();
   parts.step_on();
-  const double step_seconds = median_seconds([&] { parts.step_on(); });
+  const double step_seconds = median_seconds([&] {
+    parts.shorten_step();
+    parts.step_on();
+  });
 
   result.particles = parts.layout.particles.size();
   result.wall_elements = walls_in_use(parts.scene, parts.layout);

@@ -11,6 +11,7 @@ Layout walls_and_lid(const Layout& layout) {
   result.facets = layout.facets;
   result.triangles = layout.triangles;
   result.lid = layout.lid;
+  result.up = layout.up;
   return result;
 }
 
@@ -49,7 +50,7 @@ WallArrays<Real> CaseWalls::arrays(const compute::Device& device, bool own, cons
 std::vector<WallElement> CaseWalls::supporting_lid() const {
   std::vector<WallElement> lid;
   for (const WallElement& element : closed_.lid)
-    if (element.normal.z() < 0.5) lid.push_back(element);
+    if (element.normal.dot(closed_.up) < 0.05) lid.push_back(element);
   return lid;
 }
 

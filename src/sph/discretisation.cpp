@@ -9,9 +9,10 @@
 namespace wavetank {
 
 double expected_speed(const Case& checked, const Layout& layout) {
-  double top = layout.domain.min.z();
-  for (const double level : layout.levels) top = std::max(top, level);
-  const double drop = std::max(top - layout.domain.min.z(), layout.spacing);
+  const double floor = lowest_of(layout.domain, layout.up);
+  double surface = floor;
+  for (const double level : layout.levels) surface = std::max(surface, level);
+  const double drop = std::max(surface - floor, layout.spacing);
   return std::sqrt(2.0 * checked.gravity.norm() * drop);
 }
 
@@ -42,23 +43,25 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   d.lower = layout.domain.min - margin;
   d.upper = layout.domain.max + margin;
   const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
-  const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper.z() - d.lower.z()));
+  const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper - d.lower)[top_of(settled_case).axis]);
   double depth = 0;
-  for (std::size_t i = 0; i < layout.particles.size(); ++i) depth = std::max(depth, layout.levels[i] - layout.particles[i].z());
-  if (settled_case.gravity.z() != 0) d.sound_period = 4.0 * depth / d.sound_speed;
-  d.rim = layout.domain.max.z();
+  for (std::size_t i = 0; i < layout.particles.size(); ++i) depth = std::max(depth, layout.levels[i] - layout.up.dot(layout.particles[i]));
+  if (settled_case.gravity.dot(layout.up) != 0) d.sound_period = 4.0 * depth / d.sound_speed;
+  d.top = top_of(settled_case);
+  d.rim = d.top.of(layout.domain);
   d.splash_guard = settled_case.tank.splash_guard && layout.open_top;
   d.origin = d.lower;
   if (d.dimensions == 2) d.origin.y() = 0.0;
+  // above the tank, one more tank of cells: what flies higher shares the topmost
+  if (d.top.way < 0) d.origin[d.top.axis] -= d.upper[d.top.axis] - d.lower[d.top.axis];
 
   double total = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    // above the tank, one more tank of cells: what flies higher shares the topmost
-    const double extent = (d.upper[axis] - d.lower[axis]) * (axis == 2 ? 2.0 : 1.0);
+    const double extent = (d.upper[axis] - d.lower[axis]) * (axis == d.top.axis ? 2.0 : 1.0);
     d.cells[axis] = d.dimensions == 2 && axis == 1 ? 1 : static_cast<int>(std::ceil(extent / d.support)) + 2;
     total *= d.cells[axis];
   }
-  if (layout.open_top) d.upper.z() += throw_height;
+  if (layout.open_top) (d.top.way > 0 ? d.upper : d.lower)[d.top.axis] += d.top.way * throw_height;
   if (total > std::numeric_limits<int>::max() / 4.0)
     throw Error("the tank needs " + std::to_string(total) +
                 " grid cells of the support's size, more than can be indexed: raise fluid/spacing.");

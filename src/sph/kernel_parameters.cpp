@@ -52,7 +52,7 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   p.period_x = period(0);
   p.period_y = period(1);
   p.period_z = period(2);
-  p.rim_z = d.splash_guard ? real(d.rim - d.origin.z()) : std::numeric_limits<Real>::max();
+  p.rim = d.splash_guard ? real(d.top.way * (d.rim - d.origin[d.top.axis])) : std::numeric_limits<Real>::max();
   p.cells_x = d.cells[0];
   p.cells_y = d.cells[1];
   p.cells_z = d.cells[2];
@@ -63,6 +63,8 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   p.rows_y = grid.rows_y;
   p.rows_z = grid.rows_z;
   p.slots_x = grid.slots_x;
+  p.top_axis = d.top.axis;
+  p.top_way = d.top.way;
   p.images = images;
   p.repulsion = real(scene.numerics.walls.repulsion * 0.01 * c * c);
   return p;

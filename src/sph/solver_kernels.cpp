@@ -25,6 +25,7 @@ SolverKernels::SolverKernels(const compute::Device& device, const compute::Sourc
   guard.kernel = kernel_of("guard.cl", "guard", options);
   points = of_points("points.cl", "points");
   surface = of_particles("points.cl", "surface");
+  crowding = of_particles("crowding.cl", "crowding");
   const compute::Program time_step(device, files, "time_step.cl", options);
   derive = time_step.kernel("derive_state");
   predict = time_step.kernel("predict");

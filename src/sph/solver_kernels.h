@@ -20,7 +20,7 @@ struct SolverKernels {
   SolverKernels(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const Tiling& tiling,
                 bool elements);
 
-  SweepKernel continuity, momentum, gradient, loads, packing, points, surface, guard, wall_forces, facing_walls;
+  SweepKernel continuity, momentum, gradient, loads, packing, points, surface, crowding, guard, wall_forces, facing_walls;
   compute::Kernel derive, predict, correct, compress, move_packed;
   compute::Kernel watch_chunks, watch_total, guard_chunks, guard_totals, energy_chunks, energy_total, wrench_totals, packing_total, facing_chunks, facing_totals;
 };

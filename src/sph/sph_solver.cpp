@@ -16,9 +16,6 @@ bool moves(const WallMotion& motion) {
            motion.angular_acceleration.isZero(0) && motion.surface_velocity.isZero(0));
 }
 
-// Of the spacing, how far a wall may move in a step: the guard looks a quarter of the spacing far.
-constexpr double wall_reach = 0.2;
-
 bool all_finite(const std::vector<WallWrench>& wrenches) {
   for (const WallWrench& wrench : wrenches)
     for (const Eigen::Vector3d& part : wrench)
@@ -65,6 +62,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       energy_total_(device, field::energy_count),
+      fillings_(device, stride_),
       alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
@@ -114,6 +112,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
     for (int axis = 0; axis < 3; ++axis) state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = static_cast<Real>(relative[axis]);
     state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
+  up_ = layout.up;
   levels_ = layout.levels;
   state_.upload(state);
   id_.upload(id);
@@ -273,8 +272,16 @@ StepReport SphSolver<Real>::advance(WallMover* mover) {
 }
 
 template <class Real>
+double SphSolver<Real>::shorten_step(double longest) {
+  if (!(longest < step_)) return step_;
+  const Real step = static_cast<Real>(longest);
+  report_.memory().write(&step, sizeof step, field::report_step * sizeof step);
+  return step_ = step;
+}
+
+template <class Real>
 StepReport SphSolver<Real>::watch() {
-  const double longest = std::min(time_step_limit_, wall_reach * discretisation_.spacing / fastest_wall_);
+  const double longest = std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_);
   kernels_.watch_chunks.launch(chunks_, surroundings_.parameters, count_, state_, rates_, stride_, guarded_.hits, watches_, alarms_);
   kernels_.watch_total.launch(1, surroundings_.parameters, chunks_, watches_, alarms_, static_cast<Real>(longest), report_);
   const std::vector<Real> values = report_.download();

@@ -34,12 +34,14 @@ class SphSolver final : public Solver {
   StepReport advance(WallMover* mover) override;
   void set_wall_motions(const WallMotions& motions) override;
   void limit_time_step(double limit) override { time_step_limit_ = limit; }
+  double shorten_step(double longest) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
   std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;
   FluidEnergies energies() override;
+  LostVolume lost_volume() override;
   FluidState download() override;
   PairCount count_pairs() override;
   std::vector<char> save() const override;
@@ -61,6 +63,8 @@ class SphSolver final : public Solver {
     surroundings_.sweep(kernel, count, state, walls, others...);
   }
 
+  /// Gravity's part along which the water is at rest at the start.
+  Eigen::Vector3d gravity_at_rest() const { return case_.gravity.dot(up_) * up_; }
   void set_hydrostatic();
   /// Zero velocities, and all that follows from the positions and compressions.
   StepReport start_at_rest();
@@ -106,7 +110,8 @@ class SphSolver final : public Solver {
   double greatest_speed_ = 0;   ///< of a particle at the end of the last step, m/s
   bool load_lost_ = false;      ///< in this step, to values that are not finite
   double fastest_wall_ = 0;     ///< of any point of a body, m/s
-  std::vector<double> levels_;  ///< by particle id, for the hydrostatic start
+  Eigen::Vector3d up_;          ///< along which the start is hydrostatic
+  std::vector<double> levels_;  ///< by particle id, for that: heights along `up_`
   Buffer state_, rates_, gradient_;
   Buffer half_;  ///< the middle of the step; then what the state is sorted into
   compute::Buffer<std::uint32_t> id_, spare_id_;
@@ -118,7 +123,7 @@ class SphSolver final : public Solver {
   Buffer loads_;
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
-  Buffer report_, watches_, energy_parts_, energy_total_;
+  Buffer report_, watches_, energy_parts_, energy_total_, fillings_;
   compute::Buffer<int> alarms_;
   SolverKernels kernels_;
   std::vector<Stage> stages_;

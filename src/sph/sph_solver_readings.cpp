@@ -56,9 +56,33 @@ FluidEnergies SphSolver<Real>::energies() {
   FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
-  const Eigen::Vector3d floor = discretisation_.lower + Eigen::Vector3d::Constant(0.5 * discretisation_.spacing) - discretisation_.origin;
-  energies.potential += energies.mass * case_.gravity.z() * floor.z();
+  const Eigen::Vector3d up = upward(case_);
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = 0.5 * discretisation_.spacing;
+    if (up[axis] > 0) floor[axis] = discretisation_.lower[axis] + margin - discretisation_.origin[axis];
+    if (up[axis] < 0) floor[axis] = discretisation_.upper[axis] - margin - discretisation_.origin[axis];
+  }
+  energies.potential += energies.mass * case_.gravity.dot(floor);
   return energies;
+}
+
+template <class Real>
+LostVolume SphSolver<Real>::lost_volume() {
+  constexpr double crowded = 1.1;  // packed particles are so by 1 or 2 %, those that hit a wall by some more
+  sweep(kernels_.crowding, count_, state_, walls_, fillings_);
+  const std::vector<Real> fillings = fillings_.download(count_), state = state_.download();
+  LostVolume volume;
+  double most = 0;
+  for (int i = 0; i < count_; ++i) {
+    const auto value = [&](int f) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
+    volume.whole += value(field::volume);
+    if (fillings[i] > crowded) volume.lost += value(field::volume) * (1 - 1.0 / fillings[i]);
+    if (fillings[i] <= most) continue;
+    most = fillings[i];
+    volume.place = Eigen::Vector3d(value(field::x), value(field::y), value(field::z)) + discretisation_.origin;
+  }
+  return volume;
 }
 
 template <class Real>
@@ -98,12 +122,14 @@ template std::unique_ptr<PointSet> SphSolver<float>::make_points(const std::vect
 template std::vector<PointValue> SphSolver<float>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<float>::wrenches();
 template FluidEnergies SphSolver<float>::energies();
+template LostVolume SphSolver<float>::lost_volume();
 template FluidState SphSolver<float>::download();
 template PairCount SphSolver<float>::count_pairs();
 template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vector<Eigen::Vector3d>&) const;
 template std::vector<PointValue> SphSolver<double>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<double>::wrenches();
 template FluidEnergies SphSolver<double>::energies();
+template LostVolume SphSolver<double>::lost_volume();
 template FluidState SphSolver<double>::download();
 template PairCount SphSolver<double>::count_pairs();
 

@@ -13,14 +13,16 @@ StepReport SphSolver<Real>::start() {
 
 template <class Real>
 void SphSolver<Real>::set_hydrostatic() {
-  // below the free surface that the particle was filled under, along the gravity's vertical component
+  // below the free surface that the particle was filled under
   std::vector<Real> state = state_.download();
   const std::vector<std::uint32_t> id = id_.download();
   const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
-  const double g = -case_.gravity.z();
+  const double g = -case_.gravity.dot(up_);
   for (int i = 0; i < count_; ++i) {
-    const double z = state[static_cast<std::size_t>(field::z) * stride_ + i] + discretisation_.origin.z();
-    const double head = g * std::max(levels_[id[i]] - z, 0.0) / c2;  // p/(ρ₀c₀²)
+    const auto coordinate = [&](int f) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
+    const Eigen::Vector3d place =
+        Eigen::Vector3d(coordinate(field::x), coordinate(field::y), coordinate(field::z)) + discretisation_.origin;
+    const double head = g * std::max(levels_[id[i]] - up_.dot(place), 0.0) / c2;  // p/(ρ₀c₀²)
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
     state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
@@ -62,10 +64,16 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
 
   KernelParameters<Real> damped = values_;
   damped.damping = static_cast<Real>(4.0 * std::acos(-1.0) / discretisation_.sound_period);
-  damped.gravity_x = damped.gravity_y = damped.hydrostatic_x = damped.hydrostatic_y = Real(0);
+  const Eigen::Vector3d rest = gravity_at_rest(), hydrostatic = rest / (discretisation_.sound_speed * discretisation_.sound_speed);
+  damped.gravity_x = static_cast<Real>(rest.x());
+  damped.gravity_y = static_cast<Real>(rest.y());
+  damped.gravity_z = static_cast<Real>(rest.z());
+  damped.hydrostatic_x = static_cast<Real>(hydrostatic.x());
+  damped.hydrostatic_y = static_cast<Real>(hydrostatic.y());
+  damped.hydrostatic_z = static_cast<Real>(hydrostatic.z());
   const std::vector<Real> moving = surroundings_.motions.values();
   std::vector<Real> still = moving;
-  for (int k = 0; k < 9; ++k) still[k] = k == 2 ? damped.gravity_z : Real(0);  // of the frame
+  for (int k = 0; k < 9; ++k) still[k] = k < 3 ? static_cast<Real>(rest[k]) : Real(0);  // of the frame
   for (std::size_t k = field::frame_count; k < still.size(); ++k)
     if ((k - field::frame_count) % field::motion_count >= 3) still[k] = Real(0);
   upload_parameters(damped);

@@ -28,6 +28,7 @@ class ClockedFluid final : public Solver {
   StepReport advance(WallMover*) override { return {}; }
   void set_wall_motions(const WallMotions&) override {}
   void limit_time_step(double) override {}
+  double shorten_step(double) override { return 0; }
   std::size_t particle_count() const override { return 0; }
   std::optional<ThinWall> thinnest_wall() const override { return {}; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
@@ -41,6 +42,7 @@ class ClockedFluid final : public Solver {
   }
   std::vector<WallWrench> wrenches() override { return {}; }
   FluidEnergies energies() override { return {time, 0, 0, 1}; }
+  LostVolume lost_volume() override { return {}; }
   FluidState download() override { return {}; }
   PairCount count_pairs() override { return {}; }
   std::vector<char> save() const override { return {}; }

@@ -216,9 +216,10 @@ TEST(BrokenCases, GravityOutOfPlane) {
             "case.yaml:3: gravity is [0, 1, -9.81]; it must be within the x–z plane of a 2-D case, [x, 0, z] or [x, z] (m/s²)");
 }
 
-TEST(BrokenCases, GravityUpwards) {
-  EXPECT_EQ(error_of(replaced(sound, "[0, 0, -9.81]", "[0, 0, 9.81]")),
-            "case.yaml:3: gravity is [0, 0, 9.81]; it must be downwards or zero along z: z at most 0 (m/s²)");
+TEST(BrokenCases, LevelBeyondTheSeedWhereGravityPointsUp) {
+  const std::string upside_down = replaced(sound, "[0, 0, -9.81]", "[0, 0, 9.81]");
+  EXPECT_EQ(error_of(replaced(upside_down, "box: {min: [0, 0, 0], max: [1, 1, 1]}", "{seed: [0, 0, 0.5], level: 0.6}")),
+            "case.yaml:8: fluid/fill/0/level is 0.6; it must be less than the seed's z, [0, 0, 0.5] (m)");
 }
 
 TEST(BrokenCases, GhostsInAMovingTank) {

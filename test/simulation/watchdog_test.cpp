@@ -70,6 +70,27 @@ TEST_F(Watchdog, ReportsAParticleThatIsTooFast) {
   expect_parts(message, {"faster than half the speed of sound", "particle 12 ", "velocity", "t = " + shown(time) + " s", "step 8"});
 }
 
+// All the water in half of its space, at the densities that it had.
+TEST_F(Watchdog, ReportsVolumeThatIsLost) {
+  Simulation simulation(scene);
+  while (simulation.state().step % 200 != 199) simulation.advance();
+  simulation.save(path("snapshot"));
+  Snapshot snapshot = read_snapshot(path("snapshot"));
+  const std::size_t count = simulation.state().particles, stride = (count + 31) / 16 * 16;
+  float* const heights = reinterpret_cast<float*>(snapshot.fluid.data()) + static_cast<std::size_t>(field::z) * stride;
+  for (std::size_t i = 0; i < count; ++i) heights[i] *= 0.5F;
+  write_snapshot(path("edited"), snapshot);
+  simulation.advance();  // as it is, nothing is lost
+  simulation.restore(path("edited"));
+  std::string message;
+  try {
+    simulation.advance();
+  } catch (const Violation& violation) {
+    message = violation.what();
+  }
+  expect_parts(message, {"of the water's volume of 0.16", " m² are missing", "upon each other", "step 200"});
+}
+
 TEST_F(Watchdog, StopsACaseThatExplodes) {
   scene.fluid.sound_speed = 1.5;  // the fall alone reaches 2.8 m/s
   Simulation simulation(scene);

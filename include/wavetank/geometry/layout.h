@@ -44,16 +44,19 @@ struct Layout {
   std::vector<WallElement> lid;      ///< temporary, closes the fluid's free surface while it is packed
   std::vector<Vector3d> particles;   ///< centres, m
   std::vector<double> volumes;       ///< of each particle, m³ (2-D: m²)
-  std::vector<double> levels;        ///< z of the free surface over each particle, as filled, m
+  Vector3d up = Vector3d::UnitZ();   ///< unit; along it the water is hydrostatic at the start
+  std::vector<double> levels;        ///< height along `up` of the free surface over each particle, as filled, m
   bool open_top = true;              ///< water could leave the tank over its highest point
   std::vector<bool> moving;          ///< of each owner: its walls move relative to the tank
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
-/// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor
-/// under it, where elements that the box covers partly are clipped at its sides. A body that moves has its whole outside, and hides nothing
-/// of other walls. Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger
-/// than the tank, a body of a mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
+/// Hydrostatic along gravity is water that fills its region to the walls, or whose free surface is level: from a seed, or a box with
+/// gravity along an axis. Under the face of a box that is not level it is so along the axis nearest to gravity's. Walls that the fluid
+/// cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor under it, where elements
+/// that the box covers partly are clipped at its sides. A body that moves has its whole outside, and hides nothing of other walls. Throws
+/// Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger than the tank, a body of a
+/// mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});
 
 }  // namespace wavetank

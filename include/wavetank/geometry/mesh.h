@@ -6,6 +6,7 @@
 
 #include "wavetank/scene/case.h"
 #include "wavetank/scene/file_path.h"
+#include "wavetank/scene/upward.h"
 
 namespace wavetank {
 
@@ -37,7 +38,7 @@ struct TriangleMesh {
 TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
 
 /// The twelve triangles of a box, wound outwards; without those of the top if it is open.
-TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name);
+TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name, const Top& top = {});
 
 /// Checks that apply to every mesh: not all triangles degenerate (zero-area ones are removed). Any number of triangles may share an edge,
 /// as where baffles stand on a tank's floor.

@@ -16,8 +16,9 @@ struct PressureSample {
 };
 
 struct LevelSample {
-  double time = 0;             ///< s
-  std::vector<double> levels;  ///< m, z of the free surface on each gauge's line; the floor's z where it is dry
+  double time = 0;  ///< s
+  std::vector<double>
+      levels;  ///< m, of the free surface on each gauge's line: z, or the axis of the tank's top; the floor's where it is dry
 };
 
 /// Of the fluid on a body, in the body's axes about its reference point (RigidState): the centre of mass, or for a tank that is not free
@@ -44,7 +45,7 @@ struct PoseSample {
 struct EnergySample {
   double time = 0;         ///< s
   double kinetic = 0;      ///< J (2-D: J/m), of its motion in the tank
-  double potential = 0;    ///< J, −Σ m g·x about the domain's floor at the start, wherever the tank is
+  double potential = 0;    ///< J, −Σ m g·x about the domain's lowest place at the start, wherever the tank is
   double compression = 0;  ///< J, of the fluid's elasticity
   double mass = 0;         ///< kg (2-D: kg/m)
 };

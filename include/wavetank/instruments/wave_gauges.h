@@ -9,8 +9,8 @@
 
 namespace wavetank {
 
-/// Levels on vertical lines. A gauge reads the height of the floor plus the water on its line, ∫ Σ W V / γ dz: the depth under a free
-/// surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
+/// Levels on upright lines, along the axis of the tank's top. A gauge reads the coordinate of the floor plus the water on its line from
+/// there towards the top, ∫ Σ W V / γ dz where that is z: the depth under a free surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
 /// The floor is the uppermost thing that water stands on: a body, a shelf of the tank, or the tank's floor. So of several surfaces one over
 /// another the gauge reads the upper one. What is dry does not count; bodies that move are looked for where they are.
 /// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
@@ -23,8 +23,8 @@ class WaveGauges {
 
  private:
   struct Line {
-    double floor = 0;                ///< z where the line begins, m
-    std::vector<double> shelves;     ///< z of the tank's floors above that, upwards, m
+    double floor = 0;                ///< height where the line begins, towards the top, m
+    std::vector<double> shelves;     ///< heights of the tank's floors above that, upwards, m
     std::size_t begin = 0, end = 0;  ///< its points
   };
   struct Solid {  ///< a body that moves, as the case's geometry has it
@@ -38,6 +38,7 @@ class WaveGauges {
 
   const RigidWorld& world_;
   double interval_ = 0;  ///< m between points
+  Top top_;
   std::vector<Line> lines_;
   std::vector<Vector3d> places_;
   std::vector<char> open_;  ///< of each point: not inside a fixed body

@@ -62,6 +62,8 @@ class RigidWorld {
   /// States after half of the step from `time`, with the present velocities; leaves the world as it is. Accelerations of commanded owners
   /// are the change of velocity over the whole step.
   std::vector<RigidState> at_middle(double time, double time_step) const;
+  /// States at the end of the step from `time`, free owners with their present velocities; leaves the world as it is.
+  std::vector<RigidState> at_end(double time, double time_step) const;
   /// One step; `fluid`: one load an owner, in the world's axes; those of bodies that are not free are not used.
   /// Throws Error, naming body and time, for a load that is not finite.
   void advance(double time, double time_step, const std::vector<RigidLoad>& fluid);

@@ -30,7 +30,7 @@ struct MeshSource {
 /// Water filled in a closed region from a point inside it up to a level, bounded by the walls.
 struct FloodFill {
   Vector3d seed = Vector3d::Zero();  ///< m
-  double level = 0.0;                ///< m, z of the free surface
+  double level = 0.0;                ///< m, z of the free surface over the seed; where gravity is nearer to x or y, that coordinate
 };
 
 using FillRegion = std::variant<Box, FloodFill>;
@@ -48,7 +48,7 @@ struct FluidCase {
 struct BoxTank {
   Vector3d size = Vector3d::Zero();    ///< m; in 2-D size y is 0
   Vector3d origin = Vector3d::Zero();  ///< m, the corner of least coordinates
-  bool closed = false;                 ///< true: with a lid
+  bool closed = false;                 ///< true: with a lid; without one, the side nearest to against gravity is open
 };
 
 /// How the tank or a body moves.
@@ -265,7 +265,7 @@ struct PressureProbeCase {
 
 struct WaveGaugeCase {
   std::string name;
-  Vector3d position = Vector3d::Zero();  ///< m; x and y (in 2-D: x) of the vertical line; z is not used
+  Vector3d position = Vector3d::Zero();  ///< m; a point of the line: along z, or the axis nearest to gravity, it is not used
 };
 
 struct InstrumentsCase {
@@ -292,7 +292,7 @@ struct PublishingCase {
 struct Case {
   std::string title;
   int dimensions = 3;                 ///< 2 or 3
-  Vector3d gravity{0.0, 0.0, -9.81};  ///< m/s²
+  Vector3d gravity{0.0, 0.0, -9.81};  ///< m/s², of any direction
   double duration = 0.0;              ///< s of simulated time; > 0
   std::string device = "auto";        ///< auto, cpu, gpu, a part of a device's name, or platform:device
   FluidCase fluid;

@@ -62,7 +62,7 @@ class PointSet {
 /// In the frame that the fluid is solved in.
 struct FluidEnergies {
   double kinetic = 0;                                     ///< J (2-D: J/m)
-  double potential = 0;                                   ///< J, under the case's gravity, about z of the tank's floor
+  double potential = 0;                                   ///< J, under the case's gravity, about the tank's lowest place
   double compression = 0;                                 ///< J
   double mass = 0;                                        ///< kg (2-D: kg/m)
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
@@ -115,6 +115,13 @@ class WallMover {
   virtual WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) = 0;
 };
 
+/// How much of the volume that the particles' densities say is not there, because they lie upon each other.
+struct LostVolume {
+  double lost = 0;                                  ///< m³ (2-D: m²)
+  double whole = 0;                                 ///< likewise, that of all particles by their densities
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of the particle that is most crowded, in the case's coordinates
+};
+
 /// Particle state on the host, in the device's order. Positions in the case's coordinates.
 struct FluidState {
   std::vector<std::uint32_t> id;
@@ -136,10 +143,10 @@ class Solver {
   virtual PackingReport pack(int iterations, const std::function<void(double fraction)>& progress) = 0;
   /// Hydrostatic pressure, at rest, from the present positions; the first Δt.
   virtual StepReport start() = 0;
-  /// start(), and then the water comes to rest in what the particles make of hydrostatics: steps with damped velocities, gravity's vertical
-  /// part alone and the lid where it is not on top, for `periods` times 4 H/c₀, the slowest period of the sound in water of the greatest
-  /// depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a report in violation
-  /// ends it early.
+  /// start(), and then the water comes to rest in what the particles make of hydrostatics: steps with damped velocities, gravity's
+  /// part along Layout::up alone and the lid where it is not on top, for `periods` times 4 H/c₀, the slowest period of the sound in water
+  /// of the greatest depth H. The damping is critical for that period, so that all sound decays at its rate at least. Ends at rest; a
+  /// report in violation ends it early.
   virtual StepReport settle(double periods, const std::function<void(double fraction)>& progress) = 0;
   /// One time step of the case's integrator. Without a mover walls stay where they are.
   virtual StepReport advance(WallMover* mover = nullptr) = 0;
@@ -148,6 +155,8 @@ class Solver {
   virtual void set_wall_motions(const WallMotions& motions) = 0;
   /// The next steps are no longer than this, s, whatever the fluid allows.
   virtual void limit_time_step(double limit) = 0;
+  /// The next step alone is no longer than this, s, greater than 0. Returns its length.
+  virtual double shorten_step(double longest) = 0;
 
   virtual std::size_t particle_count() const = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
@@ -157,6 +166,8 @@ class Solver {
   /// One wrench an owner (0 the tank, 1 + i body i) about its centre, in the tank's axes.
   virtual std::vector<WallWrench> wrenches() = 0;
   virtual FluidEnergies energies() = 0;
+  /// Of particles in the open water; beside walls and under a free surface it is found too small.
+  virtual LostVolume lost_volume() = 0;
   virtual FluidState download() = 0;
   /// Of the present positions.
   virtual PairCount count_pairs() = 0;

@@ -1,5 +1,5 @@
 // Guard against penetration ([C] of docs/numerics.md): a particle nearer to a wall than the guard distance and approaching it loses its normal velocity
-// relative to the wall; one that rounding or a violent step put behind the wall is set back onto it. The splash guard does the same above the rim of an
+// relative to the wall; one that rounding or a violent step put behind the wall, or through it beside an edge or a corner, is set back onto it. The splash guard does the same above the rim of an
 // open tank, where there is no wall: as if the tank's walls went on upwards from the rim, and at the sides of the tank's bounding box. Where bodies are
 // free (GUARD_IMPULSES), what each particle loses is kept for them, by the walls' owners.
 #include "walls.cl"
@@ -29,13 +29,27 @@ INLINE void lose(wall_sweep_t* a, int owner, vector_t velocity) {
 }
 #endif
 
+// Whether the particle went through the wall in this step: from a wall's front past its edge or corner it may come out behind two walls, over neither.
+INLINE bool went_through(const wall_sweep_t* a, __constant const parameters_t* p, int s, const contact_t* c, real x, real y, real z) {
+  if (c->distance >= R(0.0) || c->distance < -p->spacing || c->beside > p->spacing || a->above_rim) return false;
+  // where it was, seen from where the wall is now
+  const vector_t carried = wall_velocity(a->walls, s, c->normal, a->from.x, a->from.y, a->from.z);
+  const vector_t way = make_vector(x - a->from.x - a->step * carried.x, y - a->from.y - a->step * carried.y, z - a->from.z - a->step * carried.z);
+  const real before = c->distance + dot3(c->normal, way);
+  if (before < -BORDER * p->spacing) return false;
+  const real back = c->distance / fmax(fmax(before, R(0.0)) - c->distance, R(1.0e-6) * p->spacing);  // to the plane, of the way; negative
+  const contact_t there = touch_wall(p, a->walls, s, x + back * way.x, y + back * way.y, z + back * way.z);
+  return there.beside <= BORDER * p->spacing;
+}
+
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   // seen from where the walls before this one left the particle
   contact_t c = touch_wall(p, a->walls, s, x + a->x, y + a->y, z + a->z);
   if (a->above_rim) {
-    const real level = sqrt(c.normal.x * c.normal.x + c.normal.y * c.normal.y);
+    const vector_t sideways = make_vector(p->top_axis == 0 ? R(0.0) : c.normal.x, p->top_axis == 1 ? R(0.0) : c.normal.y, p->top_axis == 2 ? R(0.0) : c.normal.z);
+    const real level = sqrt(dot3(sideways, sideways));
     if (level < R(0.1) || WALL_FIELD(a->walls, WALL_OWNER, s) > R(0.5)) return;
-    c.normal = make_vector(c.normal.x / level, c.normal.y / level, R(0.0));
+    c.normal = make_vector(sideways.x / level, sideways.y / level, sideways.z / level);
     c.distance /= level;
   }
 #if THIN_WALLS
@@ -51,8 +65,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   const real least = R(0.0);
 #endif
   // behind a wall as far as half a spacing on the wall itself, by no more than the guard distance beside it: there a body's own side may lie
+  const bool through = went_through(a, p, s, &c, x + a->x, y + a->y, z + a->z);
   const real deepest = c.over ? -R(2.0) * BEHIND_TOLERANCE * p->spacing : -p->guard_distance;
-  if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest) return;
+  if (!through && (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < deepest)) return;
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x, y, z);
   const real approach = (a->u - wall.x) * c.normal.x + (a->v - wall.y) * c.normal.y + (a->w - wall.z) * c.normal.z;
   if (approach > R(0.0)) {
@@ -74,6 +89,15 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 
 #include "sweep.cl"
 
+// A particle set back onto one wall may now be behind the next: in a corner of three dimensions three hold it.
+INLINE void hold(wall_sweep_t* a, __constant const parameters_t* p, const walls_t* walls, __global const real* images, real x, real y, real z) {
+  for (int pass = 0; pass < DIMENSIONS; ++pass) {
+    const vector_t before = make_vector(a->x, a->y, a->z);
+    sweep_walls(a, p, walls, images, x, y, z);
+    if (fabs(a->x - before.x) + fabs(a->y - before.y) + fabs(a->z - before.z) < R(1.0e-4) * p->spacing) return;
+  }
+}
+
 typedef struct {
   real move, speed;
   bool hit;
@@ -87,6 +111,24 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
   return held;
 }
 
+// Between the sides of the tank's bounding box, its top's axis left out.
+INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* state, int stride, int i) {
+  const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
+  const real lower[3] = {p->lower_x, p->lower_y, p->lower_z}, upper[3] = {p->upper_x, p->upper_y, p->upper_z};
+  const real period[3] = {p->period_x, p->period_y, p->period_z};
+  bool hit = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == p->top_axis || (DIMENSIONS == 2 && axis == 1) || period[axis] != R(0.0)) continue;
+    __global real* at = state + (FIELD_X + axis) * stride + i;
+    __global real* speed = state + (FIELD_U + axis) * stride + i;
+    const held_t held = hold_between(*at, *speed, lower[axis] + margin, upper[axis] - margin, p->guard_distance);
+    *at += held.move;
+    *speed = held.speed;
+    hit = hit || held.hit;
+  }
+  return hit;
+}
+
 __kernel void guard(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, int stride, real reach,
                     WALL_ARGUMENTS,
                     __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
@@ -97,24 +139,8 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
 #if GUARD_IMPULSES
   for (int slot = 0; slot < GUARD_OWNERS; ++slot) takers[slot * stride + i] = NO_OWNER;
 #endif
-  const bool above_rim = state[FIELD_Z * stride + i] > p->rim_z;
-  if (above_rim) {
-    const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
-    if (p->period_x == R(0.0)) {
-      const held_t x = hold_between(state[FIELD_X * stride + i], state[FIELD_U * stride + i], p->lower_x + margin, p->upper_x - margin, p->guard_distance);
-      state[FIELD_X * stride + i] += x.move;
-      state[FIELD_U * stride + i] = x.speed;
-      hits[i] = x.hit ? 1 : 0;
-    }
-#if DIMENSIONS == 3
-    if (p->period_y == R(0.0)) {
-      const held_t y = hold_between(state[FIELD_Y * stride + i], state[FIELD_V * stride + i], p->lower_y + margin, p->upper_y - margin, p->guard_distance);
-      state[FIELD_Y * stride + i] += y.move;
-      state[FIELD_V * stride + i] = y.speed;
-      hits[i] |= y.hit ? 1 : 0;
-    }
-#endif
-  }
+  const bool above_rim = p->top_way * state[(FIELD_X + p->top_axis) * stride + i] > p->rim;
+  if (above_rim) hits[i] = hold_over_tank(p, state, stride, i) ? 1 : 0;
   // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
   const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing;
   if (!near && !above_rim) return;
@@ -134,9 +160,12 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
 #if GUARD_IMPULSES
   for (int slot = 0; slot < GUARD_OWNERS; ++slot) a.owners[slot] = NO_OWNER;
 #endif
-  if (near) sweep_walls(&a, p, &walls, images, x, y, z);
+  if (near) hold(&a, p, &walls, images, x, y, z);
   a.above_rim = above_rim;
-  if (above_rim) sweep_walls(&a, p, &walls, images, x, y, p->rim_z - R(0.25) * p->spacing);
+  if (above_rim) {
+    const real at_rim = p->top_way * (p->rim - R(0.25) * p->spacing);
+    sweep_walls(&a, p, &walls, images, p->top_axis == 0 ? at_rim : x, p->top_axis == 1 ? at_rim : y, p->top_axis == 2 ? at_rim : z);
+  }
   hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;
   state[FIELD_W * stride + i] = a.w;

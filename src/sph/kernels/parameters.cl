@@ -34,7 +34,7 @@ real upper_z;
 real period_x;            // of a periodic tank, else 0
 real period_y;
 real period_z;
-real rim_z;               // above it, the splash guard keeps particles over the tank
+real rim;                 // top_way times the rim's coordinate along top_axis: above it, the splash guard keeps particles over the tank
 int cells_x;              // the walls' cells, a border of one empty cell included in each direction
 int cells_y;
 int cells_z;
@@ -45,6 +45,8 @@ real inverse_slot;        // 1 / length of a slot of a row
 int rows_y;               // rows, and slots of each, a border of one empty one included in each direction
 int rows_z;
 int slots_x;
+int top_axis;             // of the tank's top: 0, 1, 2; and on which side it is
+int top_way;              // 1: of the greatest coordinates, −1: of the least
 int images;               // of the tank: periodic shifts and ghosts
 real damping;             // 1/s, of the velocities: only before the start
 real repulsion;           // of ghosts, (m/s)²: short-range force by the wall
