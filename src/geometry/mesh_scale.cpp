@@ -68,10 +68,14 @@ std::string MeshScale::sized(std::size_t part) const {
 
 /// Millimetres are what most drawings are in.
 std::string MeshScale::advice(std::size_t part, double fitting) const {
-  const double scale = source(part)->scale;
-  const std::string now = "its scale (metres per unit of the mesh), which is " + number(scale) + ", ";
+  const Vector3d& scale = source(part)->scale;
+  const auto text = [&](double factor) {
+    if (scale.x() == scale.y() && scale.y() == scale.z()) return number(factor * scale.x());
+    return "[" + number(factor * scale.x()) + ", " + number(factor * scale.y()) + ", " + number(factor * scale.z()) + "]";
+  };
+  const std::string now = "its scale (metres per unit of the mesh), which is " + text(1) + ", ";
   if (longest(part) < fitting) return "check " + now.substr(0, now.size() - 2);
-  return "if it is drawn in millimetres, " + now + "must be " + number(scale * 0.001);
+  return "if it is drawn in millimetres, " + now + "must be " + text(0.001);
 }
 
 void MeshScale::check_bodies() const {

@@ -99,7 +99,7 @@ class Splitter {
     std::vector<WallTriangle> triangles;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), 0});
-    grid_.emplace(triangles, size_ / std::clamp(std::sqrt(static_cast<double>(triangles.size())), 4.0, 200.0), tolerance_);
+    grid_.emplace(triangles, tolerance_);
   }
 
   std::vector<SurfacePiece> pieces() const {

@@ -72,7 +72,7 @@ TEST_F(MeshScaleTest, ATankInMillimetresIsRefused) {
 TEST_F(MeshScaleTest, ATankScaledTwiceIsRefused) {
   Case scene = still_tank();
   MeshSource mesh = box_file("tank.obj", Vector3d::Zero(), Vector3d(1, 0.5, 0.5), true);
-  mesh.scale = 0.001;
+  mesh.scale = Vector3d::Constant(0.001);
   scene.tank.shape = mesh;
   expect_words(error_of([&] { lay_out(scene); }), {"tank.obj", "0.001 × 0.0005 × 0.0005 m", "scale"});
 }
@@ -91,7 +91,7 @@ TEST_F(MeshScaleTest, MeshesOfAFittingSizeAreNotDoubted) {
   Case scene = still_tank();
   scene.tank.shape = box_file("tank.obj", Vector3d::Zero(), Vector3d(1, 0.5, 0.5), true);
   MeshSource mesh = box_file("cube_mm.obj", Vector3d::Constant(-100), Vector3d::Constant(100));
-  mesh.scale = 0.001;
+  mesh.scale = Vector3d::Constant(0.001);
   mesh.translation = Vector3d(0.5, 0.25, 0.3);
   add_body(scene, mesh, Motion::free);
   EXPECT_GT(lay_out(scene).particles.size(), 500u);
