@@ -155,29 +155,35 @@ struct FacetEdge {
 
 /// What a thin part does at an edge of one of its facets.
 enum class EdgeKind {
-  inner,  ///< it goes on
-  closed, ///< another wall stands there, or it turns towards the water
-  outer   ///< it ends, or turns away from the water
+  inner,   ///< it goes on
+  closed,  ///< another wall stands there, or it turns towards the water
+  outer    ///< it ends, or turns away from the water
 };
 
 /// Finds the free edges of thin facets.
 class EdgeFinder {
  public:
   EdgeFinder(const Layout& layout, const std::vector<Thin>& thin, const Looker& looker, int dimensions)
-      : facets_(layout.facets), moving_(layout.moving), thin_(thin), looker_(looker), dimensions_(dimensions), tolerance_(1e-3 * layout.spacing) {}
+      : facets_(layout.facets),
+        moving_(layout.moving),
+        thin_(thin),
+        looker_(looker),
+        dimensions_(dimensions),
+        tolerance_(1e-3 * layout.spacing) {}
 
   std::vector<FreeEdge> find() const {
     std::vector<FreeEdge> edges;
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       if (thin_[f] != Thin::yes) continue;
       for (int k = 0; k < ends(); ++k)
-        if (is_free(static_cast<int>(f), k)) edges.push_back({FacetEdge(facets_[f], k, dimensions_).from, FacetEdge(facets_[f], k, dimensions_).to, facets_[f].owner});
+        if (is_free(static_cast<int>(f), k))
+          edges.push_back({FacetEdge(facets_[f], k, dimensions_).from, FacetEdge(facets_[f], k, dimensions_).to, facets_[f].owner});
     }
     return edges;
   }
 
  private:
-  static constexpr double same_way = 0.85;      // cosine of the normals of two facets of one curved face
+  static constexpr double same_way = 0.85;       // cosine of the normals of two facets of one curved face
   static constexpr double towards_water = -0.1;  // of a neighbour's way from the edge, along the normal
 
   int ends() const { return dimensions_ == 2 ? 2 : 3; }
@@ -223,7 +229,8 @@ class EdgeFinder {
   bool is_free(int f, int k) const {
     if (kind(f, k) != EdgeKind::outer) return false;
     const FacetEdge edge(facets_[f], k, dimensions_);
-    const std::optional<Looker::Behind> behind = looker_.look(edge.middle + 2 * tolerance_ * edge.inwards, facets_[f].normal, facets_[f].owner);
+    const std::optional<Looker::Behind> behind =
+        looker_.look(edge.middle + 2 * tolerance_ * edge.inwards, facets_[f].normal, facets_[f].owner);
     if (!behind) return false;
     const Facet& other = facets_[behind->facet];
     const Vector3d across = edge.middle + behind->depth * facets_[f].normal;

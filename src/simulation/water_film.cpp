@@ -7,8 +7,8 @@
 namespace wavetank {
 namespace {
 
-// Of the spacing. No particle's centre comes nearer to a wall than about half of it, so that into a gap of one spacing they fit, but not into
-// one of half of that.
+// Of the spacing. No particle's centre comes nearer to a wall than about half of it, so that into a gap of one spacing they fit, but not
+// into one of half of that.
 constexpr double closed_gap = 0.5, open_gap = 1.0;
 
 // Wider gaps have a film as far as particles have not come into them, up to the first of these; at the second they are open water.
@@ -212,7 +212,8 @@ void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& fr
     // of two bodies with films the first one's elements count for both
     const auto& [covered, other, gap, share] = film.covers[e];
     if (share <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
-    // particles beside a covered face press on its rim by 2 p Σ W V, and half of that is more than they miss at the wall across (facing_walls.cl)
+    // particles beside a covered face press on its rim by 2 p Σ W V, and half of that is more than they miss at the wall across
+    // (facing_walls.cl)
     const double dry = 1.0 - std::min(film.fluid[e].filling, 1.0);
     const WallElement& element = surface.elements[e];
     const Vector3d force = share * dry * pressures[e] * element.area * (film.to_tank.linear() * element.normal);

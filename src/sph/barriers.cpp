@@ -34,7 +34,8 @@ std::vector<Real> plane_values(const std::vector<Facet>& facets, const Discretis
   return values;
 }
 
-// of the spacing: water passes between a free edge and another owner's wall that is farther than the second from it, and not below the first
+// of the spacing: water passes between a free edge and another owner's wall that is farther than the second from it, and not below the
+// first
 constexpr double closed_gap = 0.5, open_gap = 1.0;
 
 // of the support: how far from a free edge the water on one side of a thin wall may feel that on the other (neighbours.cl)

@@ -40,8 +40,8 @@ void FacingWalls<Real>::add(const SolverKernels& kernels, const Surroundings<Rea
   const int chunks = chunks_of(count_), items = regions * chunks;
   const std::size_t size = 6 * static_cast<std::size_t>(items);
   if (sums_.size() < size) sums_ = compute::Buffer<Real>(device_, size);
-  kernels.facing_chunks.launch(items, items, chunks, count_, region_values, surroundings.motions.on_device(), owners_, places_, others_, forces_,
-                               sums_);
+  kernels.facing_chunks.launch(items, items, chunks, count_, region_values, surroundings.motions.on_device(), owners_, places_, others_,
+                               forces_, sums_);
   kernels.facing_totals.launch(regions, regions, chunks, sums_, totals);
 }
 

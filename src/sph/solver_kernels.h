@@ -22,7 +22,8 @@ struct SolverKernels {
 
   SweepKernel continuity, momentum, gradient, loads, packing, points, surface, crowding, guard, wall_forces, facing_walls;
   compute::Kernel derive, predict, correct, compress, move_packed;
-  compute::Kernel watch_chunks, watch_total, guard_chunks, guard_totals, energy_chunks, energy_total, wrench_totals, packing_total, facing_chunks, facing_totals;
+  compute::Kernel watch_chunks, watch_total, guard_chunks, guard_totals, energy_chunks, energy_total, wrench_totals, packing_total,
+      facing_chunks, facing_totals;
 };
 
 }  // namespace wavetank

@@ -168,8 +168,8 @@ template <class Real>
 void SphSolver<Real>::place_barriers() {
   const std::vector<Facet>& plates = case_walls_.thin_facets();
   if (std::none_of(plates.begin(), plates.end(), [this](const Facet& plate) { return static_cast<bool>(moving_[plate.owner]); })) return;
-  surroundings_.barriers.place(device_, moved(plates, poses_), moved(case_walls_.thin().free_edges, poses_), moved(case_walls_.facets(), poses_),
-                               discretisation_);
+  surroundings_.barriers.place(device_, moved(plates, poses_), moved(case_walls_.thin().free_edges, poses_),
+                               moved(case_walls_.facets(), poses_), discretisation_);
 }
 
 template <class Real>

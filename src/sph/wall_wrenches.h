@@ -11,8 +11,8 @@ namespace wavetank {
 template <class Real>
 class WallWrenches {
  public:
-  /// `boxes`: about each owner's walls at rest; `pieces`: those walls, each about a spacing wide; `everywhere`: images bring an owner's walls
-  /// to particles far from it.
+  /// `boxes`: about each owner's walls at rest; `pieces`: those walls, each about a spacing wide; `everywhere`: images bring an owner's
+  /// walls to particles far from it.
   WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid, const std::vector<Box>& boxes,
                const std::vector<WallElement>& pieces, bool everywhere);
 

@@ -23,7 +23,7 @@ TEST(EnergyBalance, OfSpray) {
     for (const NegativePressure tension : {NegativePressure::clamped, NegativePressure::allowed}) {
       Case scene = box_case(Vector3d(0.6, 0, 1), 0.1, 0.02);
       scene.title = "falling block";
-      scene.fluid.sound_speed = 20;
+      scene.fluid.sound_speed = 30;
       scene.fluid.fill = {Box{Vector3d(0.2, 0, 0.45), Vector3d(0.4, 0, 0.75)}};
       scene.bodies.push_back({"step", Box{Vector3d(0.28, 0, 0.1), Vector3d(0.4, 0, 0.2)}, Motion::fixed});
       scene.numerics.equation_of_state = law;

@@ -14,8 +14,8 @@ struct ThinWall {
   Vector3d place = Vector3d::Zero();  ///< a point of it, m
 };
 
-/// An edge of a thin part around which water goes from one of its sides to the other: a fin's tip, a plate's rim, the sharp edge of a wedge.
-/// Where a thin part meets another wall, or turns a corner as a box's skin does, it has no free edge.
+/// An edge of a thin part around which water goes from one of its sides to the other: a fin's tip, a plate's rim, the sharp edge of a
+/// wedge. Where a thin part meets another wall, or turns a corner as a box's skin does, it has no free edge.
 struct FreeEdge {
   Vector3d from, to;  ///< m; the same point in 2-D
   int owner = 0;      ///< 0 the tank, 1 + i body i

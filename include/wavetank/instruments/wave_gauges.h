@@ -10,10 +10,11 @@
 namespace wavetank {
 
 /// Levels on upright lines, along the axis of the tank's top. A gauge reads the coordinate of the floor plus the water on its line from
-/// there towards the top, ∫ Σ W V / γ dz where that is z: the depth under a free surface, the true thickness of a layer thinner than the spacing, and of spray no more than the water in it, as a resistance wire does.
-/// The floor is the uppermost thing that water stands on: a body, a shelf of the tank, or the tank's floor. So of several surfaces one over
-/// another the gauge reads the upper one. What is dry does not count; bodies that move are looked for where they are.
-/// The kernel smooths it over the support; the integral is taken with points a quarter of the spacing apart.
+/// there towards the top, ∫ Σ W V / γ dz where that is z: the depth under a free surface, the true thickness of a layer thinner than the
+/// spacing, and of spray no more than the water in it, as a resistance wire does. The floor is the uppermost thing that water stands on: a
+/// body, a shelf of the tank, or the tank's floor. So of several surfaces one over another the gauge reads the upper one. What is dry does
+/// not count; bodies that move are looked for where they are. The kernel smooths it over the support; the integral is taken with points a
+/// quarter of the spacing apart.
 class WaveGauges {
  public:
   /// `world` is looked at in every reading.

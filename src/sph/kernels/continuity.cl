@@ -32,12 +32,6 @@ typedef struct {
   const walls_t* walls;
   real u, v, w;
   real divergence, shepard;
-#if MOVING_WALLS
-  real approach;    // the walls' part of the divergence
-  vector_t normal;  // of the wall that the particle is over and nearer to than a spacing, and how near
-  real distance;
-  real gap;         // between that and one that faces it
-#endif
 } wall_sweep_t;
 
 #if DIFFUSION_FOURTAKAS
@@ -99,31 +93,8 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->shepard += c.shepard;
 #endif
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x + c.distance * c.normal.x, y + c.distance * c.normal.y, z + c.distance * c.normal.z);
-  const real approach = dot3(make_vector(wall.x - a->u, wall.y - a->v, wall.z - a->w), c.normal) * c.weight;
-#if MOVING_WALLS
-  a->approach += approach;
-  if (c.over && c.distance < p->spacing) {
-    if (dot3(a->normal, c.normal) < FACING) a->gap = fmin(a->gap, a->distance + c.distance);
-    if (c.distance < a->distance) {
-      a->normal = c.normal;
-      a->distance = c.distance;
-    }
-  }
-#else
-  a->divergence += approach;
-#endif
+  a->divergence += dot3(make_vector(wall.x - a->u, wall.y - a->v, wall.z - a->w), c.normal) * c.weight;
 }
-
-#if MOVING_WALLS
-// Walls that close upon a particle compress it only while it fits between them. One that is left in a narrower gap is no longer all of the water there,
-// which creeps out (the water film, src/simulation/water_film.h); a body could not come to rest on the floor for it.
-INLINE real with_walls(const wall_sweep_t* a, __constant const parameters_t* p) {
-  const real fits = fmin(fmax((a->gap - FILM_CLOSED * p->spacing) / ((FILM_OPEN - FILM_CLOSED) * p->spacing), R(0.0)), R(1.0));
-  return a->divergence + (a->approach < R(0.0) ? fits * a->approach : a->approach);
-}
-#else
-INLINE real with_walls(const wall_sweep_t* a, __constant const parameters_t* p) { return a->divergence; }
-#endif
 
 #include "sweep.cl"
 
@@ -175,17 +146,13 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
 #endif
 #if !GHOSTS
     LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-#if MOVING_WALLS
-    b.distance = p->spacing;
-    b.gap = p->support;
-#endif
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
     // Antuono's diffusion hardly sees the slowest sound, and needs more
     const real renormalise = RENORMALISE_DIVERGENCE && !DIFFUSION_ANTUONO ? rsqrt(bounded_shepard(b.shepard)) : R(1.0);
     rates[RATE_COMPRESSION * stride + i] =
         renormalise * (renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k] -
-                       (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * with_walls(&b, p));
+                       (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence);
     rates[RATE_SHEPARD * stride + i] = b.shepard;
   }
 }

@@ -508,7 +508,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
 #else
     LOOK_THROUGH(walls, a.near, b.x, b.y, b.z);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
-#endif
+  #endif
     const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
     rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
     rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);
