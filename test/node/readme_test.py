@@ -28,7 +28,7 @@ class Readme(unittest.TestCase):
         shutil.copy(os.path.join(ROOT, "meshes", "sphere.stl"), os.path.join(self.folder, "obstacle.stl"))
         check = subprocess.run([os.environ["WAVETANK_RUN"], "--check", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         self.assertEqual(check.returncode, 0, check.stderr)
-        self.assertRegex(check.stdout, r"(?m)^particles +7500$")
+        self.assertRegex(check.stdout, r"(?m)^particles +7500,")
 
     def test_programs_are_where_rosrun_finds_them(self):
         programs = set(re.findall(r"rosrun wavetank (\w+)", self.text))

@@ -39,6 +39,7 @@ void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
   const double pressure = solver->evaluate(*points)[1].pressure;
   const double force = solver->wrenches()[0][0].z();
   const double energy = solver->energies().potential;
+  solver->lost_volume();
   if (!std::isfinite(pressure) || !std::isfinite(force)) throw std::runtime_error("a pressure or a force is not finite");
   const wavetank::PairCount pairs = solver->count_pairs();
   if (pairs.pairs == 0 || pairs.candidates < pairs.pairs) throw std::runtime_error("the pairs are not counted right");

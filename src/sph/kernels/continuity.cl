@@ -149,7 +149,11 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
     // Antuono's diffusion hardly sees the slowest sound, and needs more
-    const real renormalise = RENORMALISE_DIVERGENCE && !DIFFUSION_ANTUONO ? rsqrt(bounded_shepard(b.shepard)) : R(1.0);
+#if RENORMALISE_DIVERGENCE && !DIFFUSION_ANTUONO
+    const real renormalise = rsqrt(bounded_shepard(b.shepard));
+#else
+    const real renormalise = R(1.0);
+#endif
     rates[RATE_COMPRESSION * stride + i] =
         renormalise * (renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k] -
                        (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence);
