@@ -88,7 +88,7 @@ TEST_F(Watchdog, ReportsVolumeThatIsLost) {
   } catch (const Violation& violation) {
     message = violation.what();
   }
-  expect_parts(message, {"of the water's volume of 0.15", " m² are missing", "upon each other", "step 200"});
+  expect_parts(message, {"of the water's volume of 0.159", " m² are missing", "upon each other", "step 200"});
 }
 
 TEST_F(Watchdog, StopsACaseThatExplodes) {
