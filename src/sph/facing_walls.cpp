@@ -1,8 +1,26 @@
 #include "facing_walls.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace wavetank {
+
+std::vector<WallElement> pieces_that_may_face(const std::vector<WallElement>& pieces, const std::vector<bool>& moving, double support) {
+  std::vector<Eigen::AlignedBox3d> about(moving.size());
+  for (const WallElement& piece : pieces) about.at(piece.owner).extend(piece.centre);
+  const Vector3d reach = Vector3d::Constant(2 * support);  // a piece is no wider than a spacing or two
+  std::vector<WallElement> kept;
+  for (const WallElement& piece : pieces) {
+    bool may_face = false;
+    for (std::size_t o = 0; o < about.size() && !may_face; ++o) {
+      if (static_cast<int>(o) == piece.owner || about[o].isEmpty()) continue;
+      may_face =
+          moving[o] || moving[piece.owner] || Eigen::AlignedBox3d(about[o].min() - reach, about[o].max() + reach).contains(piece.centre);
+    }
+    if (may_face) kept.push_back(piece);
+  }
+  return kept;
+}
 
 template <class Real>
 FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<WallElement>& pieces, const Discretisation& discretisation)

@@ -8,6 +8,10 @@
 
 namespace wavetank {
 
+/// Those pieces of walls that may come nearer to another owner's walls than the support (m): of owners that stand, what lies about each
+/// other; `moving`: of each owner.
+std::vector<WallElement> pieces_that_may_face(const std::vector<WallElement>& pieces, const std::vector<bool>& moving, double support);
+
 /// What walls of different owners do to each other through water narrower than the support (facing_walls.cl).
 template <class Real>
 class FacingWalls {

@@ -56,7 +56,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       images_(tank_images(scene, layout, discretisation)),
       walls_(case_walls_.arrays<Real>(device, true, {})),
       loads_(device, elements_ ? walls_.stride : 1),
-      wrenches_(device, discretisation, grid_shape_, boxes_, ghosts_ ? std::vector<WallElement>() : case_walls_.pieces(), !images_.empty()),
+      wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty()),
       guarded_(device, anything_free(scene), count_, stride_, centres.size()),
       report_(device, field::report_impulses + guarded_.values().size()),
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
@@ -82,6 +82,16 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   set_wall_motions(motions_at_start());
   upload_particles(layout);
   stages_ = symplectic();
+}
+
+/// Images bring walls to others far from them.
+template <class Real>
+std::vector<WallElement> SphSolver<Real>::facing_pieces() const {
+  if (ghosts_) return {};
+  if (!images_.empty()) return case_walls_.pieces();
+  std::vector<bool> moving = moving_;
+  moving.resize(centres_.size(), false);
+  return pieces_that_may_face(case_walls_.pieces(), moving, discretisation_.support);
 }
 
 /// Belts run from the start; all else stands.

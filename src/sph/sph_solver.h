@@ -53,6 +53,7 @@ class SphSolver final : public Solver {
   struct DevicePoints;
 
   WallMotions motions_at_start() const;
+  std::vector<WallElement> facing_pieces() const;
   void upload_parameters(const KernelParameters<Real>& values);
   void upload_particles(const Layout& layout);
   void build_kernels();
