@@ -118,7 +118,10 @@ INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* stat
   const real period[3] = {p->period_x, p->period_y, p->period_z};
   bool hit = false;
   for (int axis = 0; axis < 3; ++axis) {
-    if (axis == p->top_axis || (DIMENSIONS == 2 && axis == 1) || period[axis] != R(0.0)) continue;
+#if DIMENSIONS == 2
+    if (axis == 1) continue;
+#endif
+    if (axis == p->top_axis || period[axis] != R(0.0)) continue;
     __global real* at = state + (FIELD_X + axis) * stride + i;
     __global real* speed = state + (FIELD_U + axis) * stride + i;
     const held_t held = hold_between(*at, *speed, lower[axis] + margin, upper[axis] - margin, p->guard_distance);
