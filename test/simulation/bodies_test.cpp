@@ -117,18 +117,33 @@ TEST(Bodies, AFixedBodyGivesItsLoadToAFreeTank) {
   push.force = Vector3d(50, 0, 0);
   scene.tank.rigid.forces = {push};
   Simulation simulation(scene);
-  run_to(simulation, 0.2);
-  const ParticleCloud cloud = simulation.particles();
-  const RigidState tank = simulation.bodies().state(0);
-  Vector3d water = Vector3d::Zero();
-  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
-    const Vector3d place = tank.orientation * (cloud.position[i].cast<double>() - simulation.bodies().reference(0));
-    water += tank.velocity + tank.orientation * cloud.velocity[i].cast<double>() + tank.angular_velocity.cross(place);
+  // What the water is told of the tank's acceleration lags behind it (docs/bodies.md), and with it the momentum of water and tank, by some
+  // steps' worth of that acceleration. The first two instants tell the lag; at the others nothing else may be missing.
+  double lag = 0, first_excess = 0, first_acceleration = 0;
+  for (const double time : {0.06, 0.08, 0.1, 0.15, 0.2}) {
+    run_to(simulation, time);
+    const ParticleCloud cloud = simulation.particles();
+    const RigidState tank = simulation.bodies().state(0);
+    Vector3d water = Vector3d::Zero();
+    for (std::size_t i = 0; i < cloud.position.size(); ++i) {
+      const Vector3d place = tank.orientation * (cloud.position[i].cast<double>() - simulation.bodies().reference(0));
+      water += tank.velocity + tank.orientation * cloud.velocity[i].cast<double>() + tank.angular_velocity.cross(place);
+    }
+    water *= scene.fluid.density * 1e-4;
+    const double impulse = push.force.x() * simulation.state().time, momentum = water.x() + 30 * tank.velocity.x();
+    const double excess = momentum - impulse, acceleration = tank.acceleration.x();
+    std::printf("impulse %.4f N s/m, momentum %.4f N s/m, of it the water's %.4f; lag %.4f s kg\n", impulse, momentum, water.x(), lag);
+    if (first_acceleration == 0) {
+      first_excess = excess;
+      first_acceleration = acceleration;
+    } else if (lag == 0) {
+      lag = (excess - first_excess) / (acceleration - first_acceleration);
+      EXPECT_GT(lag, 0);
+      EXPECT_LT(lag, 2 * scene.fluid.density * 0.076 * simulation.state().time_step) << "two steps of the water's mass";
+    } else {
+      EXPECT_NEAR(excess, lag * acceleration, 2e-4 * impulse);  // without the plate's load 4 % would be missing
+    }
   }
-  water *= scene.fluid.density * 1e-4;
-  const double impulse = push.force.x() * simulation.state().time, momentum = water.x() + 30 * tank.velocity.x();
-  std::printf("impulse %.4f N s/m, momentum %.4f N s/m, of it the water's %.4f\n", impulse, momentum, water.x());
-  EXPECT_NEAR(momentum, impulse, 5e-3 * impulse);  // without the plate's load 4 % would be missing
 }
 
 // ---- floating
