@@ -37,6 +37,7 @@ struct FilledRegion {
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
   std::vector<char> taken;         ///< cells without a particle of their own because one beside them has all of a narrow gap's room
+  std::vector<float> share;        ///< of each cell's volume, what its particle has: more in a gap whose rows do not fill it
   FreeSurface surface;             ///< that it was filled up to
   double volume = 0;               ///< of a cell, m³ (2-D: m²)
 

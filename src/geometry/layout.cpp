@@ -253,7 +253,7 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
     for (std::size_t c = 0; c < region.filled.size(); ++c) {
       if (!region.filled[c]) continue;
       layout.particles.push_back(region.position[c]);
-      layout.volumes.push_back(region.volume);
+      layout.volumes.push_back(region.share[c] * region.volume);
     }
   }
 }

@@ -14,6 +14,10 @@ constexpr double least_room = 0.9;   // of a cell: the width that a gap must hav
 constexpr double least_apart = 0.7;  // of a cell's shortest side: the distance that particles of one gap must have
 constexpr double facing = 0.8;       // cosine: walls within 37° of facing each other make a gap
 
+constexpr double resting = 2.0, filling = 3.0;  // cells: widths up to which particles are placed by their gap, and have its volume
+constexpr double tolerance = 0.01;              // cells: so that all particles of one gap agree on its width
+constexpr float least_share = 0.5f, most_share = 2.0f;
+
 /// A place between two walls that face each other.
 struct Gap {
   Vector3d across;   ///< unit, from the nearer wall to the other
@@ -25,17 +29,22 @@ struct Gap {
 /// Particles by place, for those in gaps.
 class Crowd {
  public:
-  explicit Crowd(const FilledRegion& region) : side_(region.step.maxCoeff()) {}
+  Crowd(const FilledRegion& region, double reach) : side_(reach * region.step.maxCoeff()) {}
 
-  bool has_near(const Vector3d& place, double distance) const {
+  /// Calls `visit` for all that are nearer than the reach, and some more.
+  template <class Visit>
+  void visit_near(const Vector3d& place, const Visit& visit) const {
     const Vector3i home = at(place);
     for (int k = 0; k < 27; ++k) {
       const auto found = places_.find(key(home + Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
       if (found == places_.end()) continue;
-      for (const Vector3d& other : found->second)
-        if ((other - place).norm() < distance) return true;
+      for (const Vector3d& other : found->second) visit(other);
     }
-    return false;
+  }
+  bool has_near(const Vector3d& place, double distance) const {
+    bool found = false;
+    visit_near(place, [&](const Vector3d& other) { found = found || (other - place).norm() < distance; });
+    return found;
   }
   void add(const Vector3d& place) { places_[key(at(place))].push_back(place); }
 
@@ -47,34 +56,78 @@ class Crowd {
   std::unordered_map<std::int64_t, std::vector<Vector3d>> places_;
 };
 
-/// The gap narrower than two cells that a place is in.
-std::optional<Gap> gap_about(const TriangleGrid& grid, const Vector3d& place, const Vector3d& step) {
-  const auto wall = grid.nearest(place, step.maxCoeff());
+/// The gap narrower than some cells that a place is in.
+std::optional<Gap> gap_about(const TriangleGrid& grid, const Vector3d& place, const Vector3d& step, double cells) {
+  const auto wall = grid.nearest(place, (0.5 * cells + tolerance) * step.maxCoeff());
   if (!wall || !(wall->distance > 0)) return std::nullopt;
   Gap gap;
   gap.across = (place - wall->point) / wall->distance;
   gap.near = wall->distance;
   gap.cell = gap.across.cwiseAbs2().dot(step);
-  const double ahead = 2 * gap.cell - gap.near;
+  const double ahead = cells * gap.cell - gap.near;
   if (!(ahead > 0) || std::abs(grid.normal(wall->triangle).dot(gap.across)) < facing) return std::nullopt;
   const auto other = grid.first_crossing(place, place + ahead * gap.across);
   if (!other || std::abs(grid.normal(other->triangle).dot(gap.across)) < facing) return std::nullopt;
   gap.width = gap.near + other->fraction * ahead;
+  if (gap.width > (cells - tolerance) * gap.cell) return std::nullopt;
   return gap;
+}
+
+/// How many particles stand across the gap at a place: those beside the line across count by their distance from it, so that in a lattice
+/// each column counts once.
+double rows_across(const Crowd& crowd, const Gap& gap, const Vector3d& place, const Vector3d& step) {
+  double rows = 0;
+  crowd.visit_near(place, [&](const Vector3d& other) {
+    const double along = (other - place).dot(gap.across);
+    if (along < -gap.near || along > gap.width - gap.near) return;
+    const Vector3d beside = other - place - along * gap.across;
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (step[axis] > 0) weight *= std::max(1.0 - std::abs(beside[axis]) / step[axis], 0.0);
+    rows += weight;
+  });
+  return rows;
+}
+
+/// The particles of a gap have its volume among them, also where a row more or less would fill it.
+void share_gaps(const Basin& basin, FilledRegion& region) {
+  region.share.assign(region.filled.size(), 1.0f);
+  Crowd crowd(region, filling);
+  std::vector<std::pair<std::size_t, Gap>> gaps;
+  for (std::size_t c = 0; c < region.filled.size(); ++c) {
+    if (!region.filled[c]) continue;
+    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, filling);
+    if (!gap) continue;
+    gaps.emplace_back(c, *gap);
+    crowd.add(region.position[c]);
+  }
+  for (const auto& [c, gap] : gaps) {
+    const double rows = rows_across(crowd, gap, region.position[c], region.step);
+    region.share[c] = std::clamp(static_cast<float>(gap.width / (gap.cell * rows)), least_share, most_share);
+  }
+}
+
+/// Every second cell of the lattice.
+bool is_even(const FilledRegion& region, std::size_t cell) {
+  const std::size_t i = cell % region.count[0], j = cell / region.count[0] % region.count[1], k = cell / region.count[0] / region.count[1];
+  return (i + j + k) % 2 == 0;
 }
 
 }  // namespace
 
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
   region.taken.assign(region.filled.size(), 0);
-  Crowd crowd(region);
+  Crowd crowd(region, 1.0);
   const double shortest = basin.dimensions == 2 ? std::min(region.step.x(), region.step.z()) : region.step.minCoeff();
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
     if (!region.filled[c]) continue;
-    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step);
+    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, resting);
     if (!gap) continue;
     const double off = std::min(0.5 * gap->cell, 0.5 * gap->width);
-    const Vector3d place = region.position[c] + (std::clamp(gap->near, off, gap->width - off) - gap->near) * gap->across;
+    // the one row of a gap goes to and fro between its walls: packing would bend it so, but slowly
+    const bool one_row = gap->width - 2 * off < least_apart * shortest;
+    const double from_wall = one_row ? (is_even(region, c) ? off : gap->width - off) : std::clamp(gap->near, off, gap->width - off);
+    const Vector3d place = region.position[c] + (from_wall - gap->near) * gap->across;
     region.filled[c] = 0;
     if (gap->width < least_room * gap->cell) continue;
     region.taken[c] = crowd.has_near(place, least_apart * shortest);
@@ -83,6 +136,7 @@ void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
     region.position[c] = place;
     crowd.add(place);
   }
+  share_gaps(basin, region);
 }
 
 }  // namespace wavetank

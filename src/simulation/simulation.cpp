@@ -186,7 +186,7 @@ struct Simulation::Parts {
   /// The fluid's, with those of films that particles do not resolve.
   std::vector<WallWrench> wrenches(Solver& fluid) {
     std::vector<WallWrench> wrenches = fluid.wrenches();
-    const std::vector<RigidLoad> films = film.loads(fluid, coupling.now().frame, true);
+    const std::vector<RigidLoad> films = film.find(fluid, coupling.now().frame).loads;
     for (std::size_t o = 0; o < wrenches.size(); ++o) {
       wrenches[o][0] += films[o].force;
       wrenches[o][2] += films[o].torque;
@@ -198,6 +198,8 @@ struct Simulation::Parts {
   void advance();
   /// The next step is short enough for what walls do in it.
   void shorten_step();
+  /// The films that the next step begins with.
+  void find_films();
   /// The step alone.
   void step_on();
   void check(const StepReport& report);
@@ -325,7 +327,10 @@ std::string Simulation::Parts::when() const {
 Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(std::make_unique<Parts>(checked, std::move(options))) {
   Parts& parts = *parts_;
   const int iterations = parts.scene.numerics.packing.iterations;
+  parts.find_films();  // of the lattice: how much they fill
   parts.packing = parts.solver->pack(iterations, [&](double fraction) { parts.progress("packing", fraction); });
+  parts.solver->start();
+  parts.find_films();  // with the pressures of the start
   parts.report =
       parts.solver->settle(parts.scene.numerics.packing.settling, [&](double fraction) { parts.progress("settling", fraction); });
   try {
@@ -372,9 +377,15 @@ void Simulation::Parts::advance() {
   recorder.after_step(*solver, last_time, next_time);
 }
 
+void Simulation::Parts::find_films() {
+  WaterFilm::State films = film.find(*solver, coupling.now().frame);
+  solver->set_film(films.lumps);
+  coupling.set_film(std::move(films.loads));
+}
+
 void Simulation::Parts::step_on() {
   coupling.set_time(time);
-  coupling.set_film(film.loads(*solver, coupling.now().frame, false));
+  find_films();
   report = solver->advance(world.anything_moves() ? &coupling : nullptr);
   time += time_step;
   ++step;

@@ -11,6 +11,13 @@ namespace {
 // into one of half of that.
 constexpr double closed_gap = 0.5, open_gap = 1.0;
 
+// Of what walls leave of the kernel, particles fill so much of it where they fill all.
+constexpr double full = 0.85;
+
+// Of the filling at a covered face, what takes the film's place. Measured on boxes half a spacing over a floor, whose force is right at 1.2
+// in 2-D and at 1 in 3-D, to 3 %.
+constexpr double rim_pressing = 1.1;
+
 // Wider gaps have a film as far as particles have not come into them, up to the first of these; at the second they are open water.
 // facing_walls.cl has the same four.
 constexpr double narrow_gap = 2.0, wide_gap = 2.5;
@@ -18,6 +25,18 @@ constexpr double narrow_gap = 2.0, wide_gap = 2.5;
 // The pressure is read this far off the surface, in the gap's water if it has any: on the surface itself, where two walls touch, γ has no
 // one value.
 constexpr double reading_distance = 0.1;
+
+// Thinner films are nothing to particles.
+constexpr double thinnest_lump = 0.02;
+
+// Of √(g Δx): a gap that opens so fast is filled by what comes in from its sides, and has no lumps.
+constexpr double fast_opening = 0.05;
+
+// Of a film's lumps: those of thicker ones lie upon each other, for one row in the middle would push particles to the walls.
+constexpr double thickest_lump = 0.5;
+
+// A film has the pressure of particles that share its gap: they hold it by so much more than the film beside it does.
+constexpr double as_particles = 10.0;
 
 // Elements are about a spacing wide; across an edge of the body, and diagonally, their centres are nearer than this.
 constexpr double neighbour_distance = 1.6;
@@ -28,11 +47,16 @@ constexpr double opposite = -0.5;
 // Walls face each other if they lean less than 45° from it.
 constexpr double facing = -0.7;
 
-/// How much of a gap is film, from how wide it is and how full the kernel of particles at its wall: `filling` of what `room` walls leave.
-double film_share(double gap, double filling, double room) {
+/// How much of the kernel at a wall particles lack where walls leave room for them.
+double emptiness(const PointValue& fluid) { return std::clamp((full - fluid.filling / std::max(fluid.shepard, 0.05)) / full, 0.0, 1.0); }
+
+/// How much of a gap is film, from how wide it is, how empty, and how full the kernel of particles at its wall.
+WaterFilm::Share film_share(double gap, double empty, double filling) {
   const double closed = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
   const double narrow = std::clamp((wide_gap - gap) / (wide_gap - narrow_gap), 0.0, 1.0);
-  return std::max(closed, narrow * std::clamp(1.0 - filling / std::max(room, 0.05), 0.0, 1.0));
+  const double room = std::max(closed, narrow * empty);
+  // particles beside a covered face press on its rim by 2 p Σ W V; about half of that belongs to the side beside it
+  return {room, std::min(room, 1.0 - rim_pressing * std::min(filling, 1.0 / rim_pressing))};
 }
 
 Vector3d nearest_on_segment(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
@@ -64,7 +88,8 @@ WaterFilm::WaterFilm(const RigidWorld& world, const Case& scene, const Layout& l
       spacing_(discretisation.spacing),
       density_(scene.fluid.density),
       gravity_(scene.gravity),
-      surfaces_(world.count()) {
+      surfaces_(world.count()),
+      standing_(world.count()) {
   for (const Facet& facet : layout.facets) {
     Surface& surface = surfaces_[facet.owner];
     Eigen::AlignedBox3d box(facet.corners[0]);
@@ -86,6 +111,13 @@ Eigen::Isometry3d WaterFilm::pose(std::size_t owner) const {
   pose.linear() = state.orientation.toRotationMatrix();
   pose.translation() = state.position - pose.linear() * world_.reference(owner);
   return pose;
+}
+
+/// Of an owner's wall, in the tank.
+Vector3d WaterFilm::velocity(std::size_t owner, const Vector3d& place) const {
+  if (owner == 0 || !world_.moves(owner)) return Vector3d::Zero();
+  const RigidState state = world_.state_in_tank(owner);
+  return state.velocity + state.angular_velocity.cross(place - state.position);
 }
 
 /// Where `other` is nearer to elements of `body` than any before.
@@ -114,16 +146,19 @@ void WaterFilm::cover(std::size_t body, std::size_t other, std::vector<Cover>& c
       const Vector3d nearest = dimensions_ == 2 ? nearest_on_segment(place, facet.corners[0], facet.corners[1])
                                                 : nearest_on_triangle(place, facet.corners[0], facet.corners[1], facet.corners[2]);
       const double gap = (nearest - place).norm() / spacing_;
-      if (gap < wide_gap && (!covers[e].covered || gap < covers[e].gap)) covers[e] = {true, other, gap, 0};
+      if (gap < wide_gap && (!covers[e].covered || gap < covers[e].gap)) covers[e] = {true, other, gap, {}};
     }
   }
 }
 
-std::vector<WaterFilm::Cover> WaterFilm::covers(std::size_t body) const {
-  std::vector<Cover> covers(surfaces_[body].elements.size());
-  for (std::size_t other = 0; other < surfaces_.size(); ++other)
-    if (other != body) cover(body, other, covers);
-  return covers;
+std::vector<WaterFilm::Cover> WaterFilm::covers(std::size_t body) {
+  const auto find = [&](std::vector<Cover> covers, bool of_moving) {
+    for (std::size_t other = 0; other < surfaces_.size(); ++other)
+      if (other != body && (world_.moves(body) || world_.moves(other)) == of_moving) cover(body, other, covers);
+    return covers;
+  };
+  if (standing_[body].empty()) standing_[body] = find(std::vector<Cover>(surfaces_[body].elements.size()), false);
+  return find(standing_[body], true);
 }
 
 /// Of each element: of the open ones the fluid's, of the covered ones harmonic between those but for the weight of the water; Pa.
@@ -135,7 +170,7 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
   std::vector<std::size_t> covered;
   for (std::size_t e = 0; e < count; ++e) {
     pressures[e] = std::max(film.fluid[e].pressure, 0.0);
-    if (film.covers[e].share <= 0) continue;
+    if (film.covers[e].share.room <= 0) continue;
     unknown[e] = static_cast<int>(covered.size());
     covered.push_back(e);
   }
@@ -155,6 +190,11 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
         right[row] += conductance * pressures[other];
       if (in_film || pressures[other] > 0) right[row] += conductance * weight.dot(way);  // no water, no head
     }
+    // as far as the reading is sound
+    const PointValue& beside = film.fluid[covered[k]];
+    const double contact = as_particles * std::clamp(2.0 * beside.filling / std::max(beside.shepard, 0.05) - 1.0, 0.0, 1.0);
+    sum += contact;
+    right[row] += contact * pressures[covered[k]];
     matrix.emplace_back(row, row, sum);
   }
   Eigen::SparseMatrix<double> laplacian(right.size(), right.size());
@@ -164,11 +204,11 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
   return pressures;
 }
 
-std::vector<WaterFilm::Film> WaterFilm::find(bool of_all) const {
+std::vector<WaterFilm::Film> WaterFilm::films() {
   std::vector<Film> films;
   for (std::size_t body = 1; body < surfaces_.size(); ++body) {
     const Surface& surface = surfaces_[body];
-    if (surface.elements.empty() || !(of_all || world_.is_free(body))) continue;
+    if (surface.elements.empty()) continue;
     Film film{body, pose(body), covers(body), std::vector<char>(surface.elements.size(), 0), {}};
     for (std::size_t e = 0; e < film.covers.size(); ++e) {
       if (!film.covers[e].covered) continue;
@@ -195,15 +235,25 @@ void WaterFilm::read(Solver& fluid, std::vector<Film>& films) {
   auto next = found.begin();
   for (Film& film : films) {
     film.fluid.resize(film.wanted.size());
-    for (std::size_t e = 0; e < film.wanted.size(); ++e) {
+    for (std::size_t e = 0; e < film.wanted.size(); ++e)
       if (film.wanted[e]) film.fluid[e] = *next++;
-      Cover& cover = film.covers[e];
-      if (cover.covered) cover.share = film_share(cover.gap, film.fluid[e].filling, film.fluid[e].shepard);
-    }
+    share(film);
   }
 }
 
-void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& frame, std::vector<RigidLoad>& loads) const {
+void WaterFilm::share(Film& film) const {
+  for (std::size_t e = 0; e < film.covers.size(); ++e) {
+    Cover& cover = film.covers[e];
+    if (!cover.covered) continue;
+    // at the mouth the particles before it fill a part of the kernel: what is behind tells whether the gap is empty
+    double empty = emptiness(film.fluid[e]);
+    for (const int other : surfaces_[film.body].beside[e])
+      if (film.covers[other].covered) empty = std::max(empty, emptiness(film.fluid[other]));
+    cover.share = film_share(cover.gap, empty, film.fluid[e].filling);
+  }
+}
+
+void WaterFilm::add(const Film& film, const std::optional<FrameMotion>& frame, State& state) const {
   const std::size_t body = film.body;
   const Surface& surface = surfaces_[body];
   const Vector3d gravity = frame ? frame->gravity_at(film.to_tank * world_.reference(body)) : gravity_;
@@ -211,35 +261,42 @@ void WaterFilm::add_loads(const Film& film, const std::optional<FrameMotion>& fr
   for (std::size_t e = 0; e < surface.elements.size(); ++e) {
     // of two bodies with films the first one's elements count for both
     const auto& [covered, other, gap, share] = film.covers[e];
-    if (share <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
-    // particles beside a covered face press on its rim by 2 p Σ W V, and half of that is more than they miss at the wall across
-    // (facing_walls.cl)
-    const double dry = 1.0 - std::min(film.fluid[e].filling, 1.0);
+    if (share.room <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
     const WallElement& element = surface.elements[e];
-    const Vector3d force = share * dry * pressures[e] * element.area * (film.to_tank.linear() * element.normal);
+    const Vector3d normal = film.to_tank.linear() * element.normal;
+    const Vector3d force = share.pressing * pressures[e] * element.area * normal;
     const Vector3d place = film.to_tank * element.centre;
     const auto add = [&](std::size_t owner, const Vector3d& part) {
-      loads[owner].force += part;
-      loads[owner].torque += (place - pose(owner) * world_.reference(owner)).cross(part);
+      state.loads[owner].force += part;
+      state.loads[owner].torque += (place - pose(owner) * world_.reference(owner)).cross(part);
     };
     add(body, force);
     add(other, -force);
+    if (gap < thinnest_lump) continue;
+    const double opening = (velocity(body, place) - velocity(other, place)).dot(normal) / std::sqrt(gravity.norm() * spacing_);
+    const bool held = !world_.is_free(body) && !world_.is_free(other);
+    const double standing = std::clamp((held ? 1.0 : 0.0) - opening / fast_opening, 0.0, 1.0);
+    const int layers = static_cast<int>(std::ceil(gap / thickest_lump));
+    const double thickness = gap * spacing_ / layers;
+    for (int k = 0; k < layers; ++k)
+      state.lumps.push_back({place - (k + 0.5) * thickness * normal, standing * share.room * thickness * element.area, pressures[e]});
   }
 }
 
-std::vector<RigidLoad> WaterFilm::loads(Solver& fluid, const std::optional<FrameMotion>& frame, bool of_all) {
-  std::vector<Film> films;
+WaterFilm::State WaterFilm::find(Solver& fluid, const std::optional<FrameMotion>& frame) {
+  std::vector<Film> found;
   {
     const Stopwatch::Lap lap(time_);
-    films = find(of_all);
+    found = films();
   }
-  std::vector<RigidLoad> loads(surfaces_.size());
-  if (films.empty()) return loads;
+  State state;
+  state.loads.resize(surfaces_.size());
+  if (found.empty()) return state;
   time_.tick();
-  read(fluid, films);
+  read(fluid, found);
   const Stopwatch::Lap lap(time_);
-  for (const Film& film : films) add_loads(film, frame, loads);
-  return loads;
+  for (const Film& film : found) add(film, frame, state);
+  return state;
 }
 
 }  // namespace wavetank

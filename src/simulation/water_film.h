@@ -18,18 +18,27 @@ namespace wavetank {
 /// So here: the elements of a body's surface that a wall covers have the pressure that is harmonic, but for the water's weight, between
 /// those of the open elements about them, as far as particles nearby do not press on them already. Without it a light body that stands
 /// flush on the floor would never be lifted. The film fills at once and thins without resistance; it presses on both sides of the gap
-/// alike.
+/// alike. For the particles beside the gap it is water: lumps of it stand in for the particles that are missing there, or they would shoot
+/// into an empty gap.
 class WaterFilm {
  public:
   /// `world` is looked at throughout.
   WaterFilm(const RigidWorld& world, const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
 
-  /// The films' loads in the present state, one an owner about its reference point, in the tank's axes; `frame`: of a tank that moves. All
-  /// zero, and nothing asked of the fluid, where no body is near a wall. `of_all`: not of free bodies alone.
-  std::vector<RigidLoad> loads(Solver& fluid, const std::optional<FrameMotion>& frame, bool of_all);
+  struct State {
+    std::vector<RigidLoad> loads;  ///< one an owner about its reference point, in the tank's axes
+    std::vector<FilmLump> lumps;   ///< in the tank's axes, body by body
+  };
+  /// The films in the present state; `frame`: of a tank that moves. Nothing is asked of the fluid where no body is near a wall.
+  State find(Solver& fluid, const std::optional<FrameMotion>& frame);
 
   /// Looking for films and solving them so far, without the fluid's part.
   const Stopwatch& time() const { return time_; }
+
+  struct Share {
+    double room = 0;      ///< of the gap, what is film: 0 where it is open water, 1 where there are no particles
+    double pressing = 0;  ///< of the film's pressure, what is added to what particles press with
+  };
 
  private:
   struct Surface {  ///< an owner's walls, in the case's coordinates at its start
@@ -43,7 +52,7 @@ class WaterFilm {
     bool covered = false;   ///< a wall is across
     std::size_t owner = 0;  ///< of that wall
     double gap = 0;         ///< to it, in spacings
-    double share = 0;       ///< of the film: 0 where the gap is open water, 1 where there are no particles
+    Share share;
   };
 
   struct Film {
@@ -54,14 +63,17 @@ class WaterFilm {
     std::vector<PointValue> fluid;
   };
 
-  std::vector<Film> find(bool of_all) const;
-  std::vector<Cover> covers(std::size_t body) const;
+  std::vector<Film> films();
+  std::vector<Cover> covers(std::size_t body);
   void cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const;
   /// The fluid at the covered elements and those beside them; zero at the others.
   void read(Solver& fluid, std::vector<Film>& films);
+  /// Between film and particles, once these are read.
+  void share(Film& film) const;
   std::vector<double> film_pressures(const Film& film, const Vector3d& weight) const;
-  void add_loads(const Film& film, const std::optional<FrameMotion>& frame, std::vector<RigidLoad>& loads) const;
+  void add(const Film& film, const std::optional<FrameMotion>& frame, State& state) const;
   Eigen::Isometry3d pose(std::size_t owner) const;
+  Vector3d velocity(std::size_t owner, const Vector3d& place) const;
 
   const RigidWorld& world_;
   int dimensions_;
@@ -69,7 +81,8 @@ class WaterFilm {
   double density_;
   Vector3d gravity_;
   std::vector<Surface> surfaces_;
-  std::unique_ptr<PointSet> points_;  ///< where the fluid was read last
+  std::vector<std::vector<Cover>> standing_;  ///< of each owner that stands in the tank: by others that do; empty = not found yet
+  std::unique_ptr<PointSet> points_;          ///< where the fluid was read last
   Stopwatch time_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "build_options.h"
+#include "film_values.h"
 #include "owner_boxes.h"
 #include "wavetank/common/error.h"
 #include "wavetank/sph/kernel_sources.h"
@@ -77,6 +78,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   surroundings_.grid = ParticleGrid(device, sources_, options_, grid_shape_.slots(), count_);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
+  SphSolver::set_film({});
   if (owners_move) moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, discretisation_);
   build_kernels();
   set_wall_motions(motions_at_start());
@@ -183,6 +185,11 @@ void SphSolver<Real>::place_barriers() {
 }
 
 template <class Real>
+void SphSolver<Real>::set_film(const std::vector<FilmLump>& lumps) {
+  surroundings_.film.set(device_, film_values<Real>(lumps, discretisation_));
+}
+
+template <class Real>
 void SphSolver<Real>::sort() {
   surroundings_.grid.sort(surroundings_.parameters, state_, half_, stride_, id_, spare_id_);
   surroundings_.reach = values_.support;
@@ -208,7 +215,7 @@ void SphSolver<Real>::find_compression_rates() {
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(const Buffer& state) {
-  sweep(kernels_.momentum, count_, state, walls_, loads_, rates_);
+  sweep(kernels_.momentum, count_, state, walls_, loads_, surroundings_.film.on_device(), rates_);
 }
 
 template <class Real>

@@ -33,6 +33,7 @@ class SphSolver final : public Solver {
   StepReport settle(double periods, const std::function<void(double)>& progress) override;
   StepReport advance(WallMover* mover) override;
   void set_wall_motions(const WallMotions& motions) override;
+  void set_film(const std::vector<FilmLump>& lumps) override;
   void limit_time_step(double limit) override { time_step_limit_ = limit; }
   double shorten_step(double longest) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }

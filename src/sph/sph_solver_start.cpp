@@ -112,7 +112,7 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   Buffer total(device_, 2);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
-    sweep(kernels_.packing, count_, state_, closed, rates_);
+    sweep(kernels_.packing, count_, state_, closed, surroundings_.film.on_device(), rates_);
     if (k % report_interval == 0 || k == iterations) {
       kernels_.packing_total.launch(1, count_, rates_, stride_, total);
       report.last_error = total.download()[0];

@@ -29,6 +29,7 @@ struct Surroundings {
   KeptBuffer<Real> motions;  ///< field::frame_count values of the frame, field::motion_count of each owner
   Barriers<Real> barriers;
   Buffer images;
+  KeptBuffer<Real> film;  ///< as film.cl has it, for the kernels that ask for it
 };
 
 }  // namespace wavetank

@@ -77,7 +77,8 @@ std::vector<WallWrench> WallWrenches<Real>::find(const SolverKernels& kernels, c
   if (owners.empty()) return {};
   if (region_owners_ != owners) find_regions(owners);
   const int regions = static_cast<int>(owners.size());
-  surroundings.sweep(kernels.wall_forces, region_items_, state, walls, loads, regions, regions_.on_device(), parts_);
+  surroundings.sweep(kernels.wall_forces, region_items_, state, walls, loads, surroundings.film.on_device(), regions, regions_.on_device(),
+                     parts_);
   kernels.wrench_totals.launch(regions, regions, region_items_, regions_.on_device(), parts_, totals_);
   facing_.add(kernels, surroundings, state, walls, regions, regions_.on_device(), totals_);
   const std::vector<Real> totals = totals_.download(owners.size() * field::wrench_count);

@@ -27,6 +27,7 @@ class ClockedFluid final : public Solver {
   StepReport settle(double, const std::function<void(double)>&) override { return {}; }
   StepReport advance(WallMover*) override { return {}; }
   void set_wall_motions(const WallMotions&) override {}
+  void set_film(const std::vector<FilmLump>&) override {}
   void limit_time_step(double) override {}
   double shorten_step(double) override { return 0; }
   std::size_t particle_count() const override { return 0; }

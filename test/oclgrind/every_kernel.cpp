@@ -31,6 +31,7 @@ void run(const wavetank::compute::Device& device, const wavetank::Case& checked,
   const wavetank::Layout layout = wavetank::lay_out(checked);
   const wavetank::Case scene = wavetank::settled(checked, layout);
   const auto solver = wavetank::make_solver(device, scene, layout, wavetank::discretise(scene, layout), centres);
+  solver->set_film({{Vector3d(0.3, 0.1, 0.02), 1e-4, 1000.0}, {Vector3d(0.24, 0.1, 0.02), 1e-4, 1000.0}});
   solver->pack(2, {});
   solver->start();
   for (int step = 0; step < 2; ++step)

@@ -59,6 +59,13 @@ class PointSet {
   virtual void set(const std::vector<Eigen::Vector3d>& points) = 0;
 };
 
+/// Water in a gap where there are no particles, but where those beside it feel some.
+struct FilmLump {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of its middle, in the case's coordinates
+  double volume = 0;                                ///< m³ (2-D: m²)
+  double pressure = 0;                              ///< Pa, gauge
+};
+
 /// In the frame that the fluid is solved in.
 struct FluidEnergies {
   double kinetic = 0;                                     ///< J (2-D: J/m)
@@ -153,6 +160,9 @@ class Solver {
 
   /// Places, velocities and accelerations of the walls, from the next step on.
   virtual void set_wall_motions(const WallMotions& motions) = 0;
+  /// The water in gaps too narrow for particles, from now on: packing and steps take it for water. Lumps near each other in the list are
+  /// best near each other in the tank.
+  virtual void set_film(const std::vector<FilmLump>& lumps) = 0;
   /// The next steps are no longer than this, s, whatever the fluid allows.
   virtual void limit_time_step(double limit) = 0;
   /// The next step alone is no longer than this, s, greater than 0. Returns its length.

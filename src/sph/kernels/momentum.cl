@@ -11,6 +11,7 @@
 // part of its support that lies behind walls; it is shared by how much of that part lies behind each. What the water missing behind one owner would do to
 // another's walls is not here: facing_walls.cl.
 #include "walls.cl"
+#include "film.cl"
 #include "linear_fit.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -58,6 +59,8 @@ typedef struct {
   real beyond, behind;   // of the support, what lies beyond all walls and what behind the owner's
   vector_t touched_at;   // Σ ∫ y W dS over the owner's
   vector_t push, drag;   // of the owner's walls
+  int near_owners[FACING_OWNERS];  // whose walls are near, and Σ ∫ W dS over them
+  real near_weights[FACING_OWNERS];
 #endif
 } wall_sweep_t;
 
@@ -155,6 +158,17 @@ INLINE real fitted_push(const wall_sweep_t* a, __constant const parameters_t* p,
 #define WALL_DRAG ((DIMENSIONS + R(2.0)) / (DIMENSIONS + R(1.0)))
 #endif
 
+#if WALL_FORCES
+// An owner beyond the last slot is left out, whichever owner's forces are looked for.
+INLINE void count_owner(wall_sweep_t* a, int owner, real weight) {
+  int slot = 0;
+  while (slot < FACING_OWNERS && a->near_owners[slot] != NO_OWNER && a->near_owners[slot] != owner) ++slot;
+  if (slot == FACING_OWNERS) return;
+  a->near_owners[slot] = owner;
+  a->near_weights[slot] += weight;
+}
+#endif
+
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if WALL_FORCES
@@ -164,6 +178,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->weight += c.weight;
   a->beyond -= c.shepard;
   if (own) a->behind -= c.shepard;
+  count_owner(a, (int)WALL_FIELD(a->walls, WALL_OWNER, s), c.weight);
 #endif
 #if SHEPARD_GEOMETRIC
   a->shepard += c.shepard;
@@ -347,6 +362,15 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
 #endif
 }
 
+// What the film presses on particle i with, once its pressure is known; added to the other sums.
+INLINE vector_t add_film(wall_sweep_t* b, __constant const parameters_t* p, __global const real* film, __global const real* images) {
+  const vector_t push = film_sum(p, film, images, b->pressure, R(1.0), b->x, b->y, b->z);
+  b->force_x += push.x;
+  b->force_y += push.y;
+  b->force_z += push.z;
+  return push;
+}
+
 #if WALL_FORCES
 // The owner's part of what is missing behind walls. Quadrature may make a part slightly negative.
 INLINE real share_of_owner(const wall_sweep_t* b) {
@@ -357,6 +381,18 @@ INLINE real share_of_owner(const wall_sweep_t* b) {
   const real own = fmax(b->behind, R(0.0)), others = fmax(b->beyond - b->behind, R(0.0));
   return own + others > R(0.0) ? own / (own + others) : b->touched / b->weight;
 #endif
+}
+
+// The owner's part of what a film between walls gets: it has no mass, and hands it on to the walls on either side alike.
+INLINE real film_share_of_owner(const wall_sweep_t* b, __constant const parameters_t* p) {
+  real own = R(0.0), all = R(0.0);
+  for (int slot = 0; slot < FACING_OWNERS && b->near_owners[slot] != NO_OWNER; ++slot) {
+    const real weight = fmax(b->near_weights[slot], R(0.0)) * p->smoothing_length;
+    const real part = weight / (weight + R(0.01));  // fades in where a wall comes near
+    all += part;
+    if (b->near_owners[slot] == b->owner) own = part;
+  }
+  return all > R(0.0) ? own / all : R(0.0);
 }
 
 INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vector(a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z); }
@@ -385,11 +421,13 @@ typedef struct {
 
 // What particle i, the k-th of its tile, does to the walls of one owner, which it touches.
 INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int k, const pair_sums_t* sums, __global const real* state, int stride,
-                                    const walls_t* walls, __global const real* images, __global const real* wall_loads, int owner) {
+                                    const walls_t* walls, __global const real* images, __global const real* wall_loads, __global const real* film,
+                                    int owner) {
   owner_force_t f;
   wall_sweep_t b = {0};
   start_wall_sums(&b, p, i, state, stride, walls, wall_loads);
   b.owner = owner;
+  for (int slot = 0; slot < FACING_OWNERS; ++slot) b.near_owners[slot] = NO_OWNER;
   take_pair_sums(&b, p, sums, k);
 #if GHOSTS
   add_repulsion(&b, p, images);
@@ -397,10 +435,12 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
   f.drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
   f.place = make_vector(b.x, b.y, b.z);
 #else
+  const vector_t film_push = add_film(&b, p, film, images);  // goes through the film to the walls on either side of it
   sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
   const real share = share_of_owner(&b);
   const real missing = (R(1.0) / bounded_shepard(b.shepard) - R(1.0)) * share;
   f.push = mixed(R(1.0), b.push, missing, make_vector(b.force_x, b.force_y, b.force_z));
+  f.push = mixed(R(1.0), f.push, film_share_of_owner(&b, p), film_push);
 #if THIN_WALLS
   const real through = share * p->slope_scale;
   f.push = mixed(R(1.0), f.push, through, make_vector(sums->across.x[k], sums->across.y[k], sums->across.z[k]));
@@ -417,7 +457,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
 
 // Per run of slots of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
 __kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
-                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, int regions, __global const int* region_values,
+                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, int regions, __global const int* region_values,
                           __global real* wrenches) {
   const int item = get_global_id(0);
   if (item >= count) return;
@@ -459,7 +499,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
       LOOK_THROUGH(walls, a.near, a.near.places.x[own], a.near.places.y[own], a.near.places.z[own]);
-      const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, owner);
+      const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, film, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
       push = mixed(R(1.0), push, R(1.0), f.push);
       drag = mixed(R(1.0), drag, R(1.0), f.drag);
@@ -476,7 +516,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
 }
 #else
 __kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
-                       WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global real* rates) {
+                       WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
@@ -506,9 +546,10 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     b.clearance = R(0.0);  // the guard looks for itself
     add_repulsion(&b, p, images);
 #else
+    add_film(&b, p, film, images);
     LOOK_THROUGH(walls, a.near, b.x, b.y, b.z);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
-  #endif
+#endif
     const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
     rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
     rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);

@@ -1,6 +1,7 @@
 // Packing before the start: x ← x − 0.3 h² E with the zeroth-order error E = Σ_j ∇W V_j + Σ_s n W S, walls and lid in it. Positions only; the lattice is
 // not an equilibrium of the boundary integrals, and would ring the tank.
 #include "walls.cl"
+#include "film.cl"
 #define STEP R(0.3)  // of h²: half of where the iteration still converges; with smaller steps it goes the same way, only slower
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -38,7 +39,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 
 // The displacement of one iteration, written as rates over a unit of time; RATE_COMPRESSION holds h |E|, for the report.
 __kernel void packing(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
-                      WALL_ARGUMENTS, __global const real* images, __global real* rates) {
+                      WALL_ARGUMENTS, __global const real* images, __global const real* film, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
@@ -53,6 +54,10 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
     LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+    const vector_t filled = film_sum(p, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+    b.error_x += filled.x;
+    b.error_y += filled.y;
+    b.error_z += filled.z;
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);  // with ghosts: the lid and what the guard needs
     const real size = sqrt(b.error_x * b.error_x + b.error_y * b.error_y + b.error_z * b.error_z);
     // no further than a tenth of the spacing at once: on a coarse curved wall E is large at first
