@@ -46,9 +46,10 @@ std::string kernel_names(cl_program program) {
 
 }  // namespace
 
-Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& options)
+Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& given)
     : device(std::move(on)), main(main_file) {
   const std::string source = resolve_includes(files, main);
+  const std::string options = options_that_matter(given, source);
   const std::string directory = cache_directory_for(device->info);
   const Hash key = key_of(*device, source, options);
   if (!directory.empty() && build_from_binary(load_binary(directory, key), options)) return;
