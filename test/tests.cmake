@@ -66,6 +66,12 @@ get_property(all_tests DIRECTORY PROPERTY TESTS)
 set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
   ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache")
 
+# The longest first, so that none is left to run by itself when the others are done.
+foreach(test sph_variants_test sph_wall_motion_test sph_channel_flow_test simulation_bodies_test sph_thin_plate_test sph_guard_test sph_tiling_test
+        sph_moving_walls_test sph_shepard_figures_test)
+  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${test} PROPERTIES COST 100)
+endforeach()
+
 # Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for other processes or watches memory runs by itself.
 set(lone_tests ${all_tests})
 list(FILTER lone_tests EXCLUDE REGEX "_gtest_")

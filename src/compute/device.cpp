@@ -39,6 +39,7 @@ Device::State::State(const DeviceInfo& device_info, bool time_kernels) : info(de
 Device::State::~State() {
   clFinish(queue);
   for (const Launch& launch : pending) clReleaseEvent(launch.event);
+  for (const auto& program : programs) clReleaseProgram(program.second);
   clReleaseCommandQueue(queue);
   clReleaseContext(context);
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -39,6 +41,10 @@ struct Device::State {
   cl_command_queue queue = nullptr;
   bool timing = false;  ///< false also when the driver has no profiling queue
   std::atomic<std::size_t> allocated{0};
+
+  std::mutex programs_mutex;
+  std::map<std::array<std::uint64_t, 2>, cl_program>
+      programs;  ///< all that were built, by source and options: solvers of a kind share them
 
   struct Launch {
     std::string kernel;

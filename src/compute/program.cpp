@@ -46,14 +46,24 @@ std::string kernel_names(cl_program program) {
 
 }  // namespace
 
-Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& options)
+Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& given)
     : device(std::move(on)), main(main_file) {
   const std::string source = resolve_includes(files, main);
+  const std::string options = options_that_matter(given, source);
   const std::string directory = cache_directory_for(device->info);
   const Hash key = key_of(*device, source, options);
-  if (!directory.empty() && build_from_binary(load_binary(directory, key), options)) return;
-  build_from_source(files, source, options);
-  if (!directory.empty()) store_binary(directory, key, binary());
+  const std::lock_guard<std::mutex> lock(device->programs_mutex);
+  const auto known = device->programs.find(key.value());
+  if (known != device->programs.end()) {
+    handle = known->second;
+  } else {
+    if (directory.empty() || !build_from_binary(load_binary(directory, key), options)) {
+      build_from_source(files, source, options);
+      if (!directory.empty()) store_binary(directory, key, binary());
+    }
+    device->programs.emplace(key.value(), handle);
+  }
+  clRetainProgram(handle);  // once for the device, which keeps it for those to come
 }
 
 Program::State::~State() { clReleaseProgram(handle); }

@@ -1,6 +1,7 @@
 #include "source.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <regex>
 #include <set>
@@ -123,6 +124,17 @@ void place_in_files(const std::string& resolved, CompilerError& error) {
   error.line = line_in_file;
 }
 
+std::set<std::string> identifiers(const std::string& text) {
+  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  std::set<std::string> found;
+  for (auto from = std::find_if(text.begin(), text.end(), is_part); from != text.end();) {
+    const auto to = std::find_if_not(from, text.end(), is_part);
+    found.emplace(from, to);
+    from = std::find_if(to, text.end(), is_part);
+  }
+  return found;
+}
+
 std::string first_lines(const std::string& text, int count) {
   std::istringstream lines(text);
   std::string line, first;
@@ -139,6 +151,19 @@ std::string resolve_includes(const SourceFiles& files, const std::string& main) 
   Resolver resolver(files);
   resolver.add(main, file->second, false);
   return resolver.text();
+}
+
+std::string options_that_matter(const std::string& options, const std::string& resolved) {
+  if (options.find_first_of("\"'\\") != std::string::npos) return options;  // a value with blanks in it
+  const std::set<std::string> names = identifiers(resolved);
+  std::istringstream words(options);
+  std::string word, kept;
+  while (words >> word) {
+    const bool defines = starts_with(word, "-D") && word.size() > 2;
+    if (defines && names.count(word.substr(2, word.find('=') - 2)) == 0) continue;
+    kept += (kept.empty() ? "" : " ") + word;
+  }
+  return kept;
 }
 
 std::vector<CompilerError> compiler_errors(const std::string& log, const SourceFiles& files, const std::string& resolved) {

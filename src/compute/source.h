@@ -11,6 +11,10 @@ namespace wavetank::compute {
 /// compiler's messages in terms of the files' own names and lines. Throws Error for a name that is not among the files.
 std::string resolve_includes(const SourceFiles& files, const std::string& main);
 
+/// The build options without definitions ("-DNAME=VALUE") of names that the resolved text does not hold: they change nothing, but a driver
+/// that keeps what it compiled would compile it anew for each value.
+std::string options_that_matter(const std::string& options, const std::string& resolved);
+
 /// One error of a compiler's log, in terms of the kernel sources.
 struct CompilerError {
   std::string file;     ///< as in SourceFiles; empty if the message names none of them

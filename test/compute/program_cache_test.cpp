@@ -85,15 +85,15 @@ class ProgramCacheTest : public ::testing::Test {
   void SetUp() override { setenv("WAVETANK_CACHE_DIRECTORY", directory.c_str(), 1); }
   void TearDown() override { unsetenv("WAVETANK_CACHE_DIRECTORY"); }
 
-  /// Builds a program with this number in it and asks for it.
+  /// Builds a program with this number in it and asks for it, on a device that has built nothing before.
   int answer(int number) {
+    const Device device(choose_device("auto"));
     const std::string source = "kernel void answer(global int* o) { o[0] = " + std::to_string(number) + "; }\n";
     Buffer<int> out(device, 1);
     Program(device, {{"answer.cl", source}}, "answer.cl", "").kernel("answer").launch(1, out);
     return out.download()[0];
   }
 
-  Device device{choose_device("auto")};
   ScratchDirectory scratch;
   fs::path directory = scratch.path() / "cache";
 };

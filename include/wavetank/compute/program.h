@@ -55,6 +55,7 @@ class Program {
  public:
   Program() = default;
   /// Builds files[main] with its includes. `options` are OpenCL build options ("-DDIMENSIONS=3 -cl-fast-relaxed-math").
+  /// What was built before on the same device is taken again. Definitions of names that the source does not hold are left out.
   /// Compiled programs are cached on disk ($WAVETANK_CACHE_DIRECTORY, else $XDG_CACHE_HOME/wavetank, else ~/.cache/wavetank; switched off
   /// by WAVETANK_CACHE_DIRECTORY= empty), keyed by source, options, device and driver; a damaged or unwritable cache is never an error.
   /// pocl has a cache of its own and uses this one only if WAVETANK_CACHE_DIRECTORY names it.
