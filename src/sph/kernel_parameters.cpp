@@ -13,6 +13,7 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   const double physical =
       scene.numerics.viscosity_model == ViscosityModel::monaghan_gingold ? 2.0 * (d.dimensions + 2) * scene.fluid.viscosity : 0.0;
   const Eigen::Vector3d hydrostatic = scene.gravity / (c * c);
+  const double g = scene.gravity.norm();
   KernelParameters<Real> p{};
   const auto real = [](double value) { return static_cast<Real>(value); };
   p.spacing = real(d.spacing);
@@ -36,6 +37,8 @@ KernelParameters<Real> kernel_parameters(const Case& scene, const Layout& layout
   p.viscosity = real(scene.fluid.viscosity);
   p.pair_viscosity = real(scene.numerics.artificial_viscosity * h * c * scene.fluid.density + physical);
   p.density_diffusion = real(scene.numerics.density_diffusion_coefficient * h * c);
+  p.steady_rate = real(g / c);
+  p.steady_limit = real(1.5 * scene.numerics.density_diffusion_coefficient * g * d.spacing / (h * c));
   p.guard_distance = real(scene.numerics.walls.guard_distance * d.spacing);
   p.courant = real(scene.numerics.courant);
   p.viscous_time = real(d.viscous_time);

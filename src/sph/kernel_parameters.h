@@ -19,8 +19,8 @@ KernelParameters<Real> kernel_parameters(const Case& settled_case, const Layout&
 
 /// Fields of the arrays, as common.cl has them.
 namespace field {
-enum State { x, y, z, u, v, w, compression, pressure, volume, swept, mass = swept, rest_x, rest_y, rest_z, state_count };
-enum Rate { rate_u, rate_v, rate_w, rate_compression, rate_shepard, rate_clearance, rate_count };
+enum State { x, y, z, u, v, w, compression, pressure, volume, swept, mass = swept, rest_x, rest_y, rest_z, steady, state_count };
+enum Rate { rate_u, rate_v, rate_w, rate_compression, rate_shepard, rate_clearance, rate_steady, rate_count };
 enum Wall {
   wall_x,
   wall_y,

@@ -19,6 +19,7 @@ struct Water {
   double viscosity = 0;  ///< α
   bool renormalise = true;
   WallMethod method = WallMethod::boundary_integral;
+  double offset = 0.01;  ///< of the floor's pressure, in ρgH: more only where the start already has it
 };
 
 std::ostream& operator<<(std::ostream& out, const Water& water) { return out << water.name; }
@@ -66,9 +67,8 @@ TEST_P(StillWater, StaysStill) {
       "%+.2f %%\n",
       GetParam().name, first, end, least / expected, most / expected, kinetic / potential,
       100 * (simulation.energies().potential / potential - 1));
-  // The diffusion levels the surface's own excess of pressure within a minute, a third of a spacing of water or so; that is slow, and ends.
   EXPECT_LT(most - least, 0.12 / GetParam().rows * expected);
-  EXPECT_NEAR((most + least) / 2, expected, 0.5 / GetParam().rows * expected);
+  EXPECT_NEAR((most + least) / 2, expected, GetParam().offset * expected);
   EXPECT_LT(kinetic, 3e-4 * potential);
   EXPECT_NEAR(simulation.energies().potential, potential, 0.3 / GetParam().rows * potential);
 }
@@ -81,11 +81,13 @@ constexpr Water waters[] = {
     {"EightRowsWithoutViscosity", 2, 8},
     {"Numerical", 2, 8, WallElements::numerical, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
     {"SemiAnalytical", 2, 8, WallElements::semi_analytical, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
-    {"Volumetric", 2, 8, WallElements::facet, ShepardFactor::volumetric, DensityDiffusion::fourtakas, little},
+    {"Volumetric", 2, 8, WallElements::facet, ShepardFactor::volumetric, DensityDiffusion::fourtakas, little, true,
+     WallMethod::boundary_integral, 0.06},
     {"DivergenceAsItIs", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, false},
-    {"Ghosts", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, true, WallMethod::ghost},
+    {"Ghosts", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, true, WallMethod::ghost, 0.035},
     {"Antuono", 2, 8, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::antuono, little},
-    {"FourRowsIn3D", 3, 4, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little},
+    {"FourRowsIn3D", 3, 4, WallElements::facet, ShepardFactor::geometric, DensityDiffusion::fourtakas, little, true,
+     WallMethod::boundary_integral, 0.03},
 };
 
 INSTANTIATE_TEST_SUITE_P(Walls, StillWater, ::testing::ValuesIn(waters),

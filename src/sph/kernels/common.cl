@@ -31,7 +31,8 @@ typedef struct {
 #define FIELD_REST_X 10       // what rounding took from the position so far (compensated sum)
 #define FIELD_REST_Y 11
 #define FIELD_REST_Z 12
-#define FIELD_COUNT 13
+#define FIELD_STEADY 13       // steady part of the density diffusion, 1/s
+#define FIELD_COUNT 14
 
 // rates of change
 #define RATE_U 0
@@ -40,7 +41,8 @@ typedef struct {
 #define RATE_COMPRESSION 3
 #define RATE_SHEPARD 4        // γ
 #define RATE_CLEARANCE 5      // distance to the nearest wall element, at the least
-#define RATE_COUNT 6
+#define RATE_STEADY 6         // of FIELD_STEADY
+#define RATE_COUNT 7
 
 // walls: fields that every kind has ...
 #define WALL_X 0              // the element's centre, or a point of the facet's plane

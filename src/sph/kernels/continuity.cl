@@ -6,6 +6,9 @@
 // itself: the walls' part of the divergence is not the transpose of that of the pressure's gradient, (p_i + p_s) n W S, and cannot be while both are right
 // for linear fields. Twice the walls' part would be it, and is calm, but the bracket then no longer vanishes where water turns along a wall: impacts get a
 // quarter more. √γ and the diffusion's 1/γ leave what has no divergence as it is, and let each sound in a tank decay (docs/numerics.md).
+//
+// What the diffusion does steadily is taken out of it. At rest the sums of the momentum want some excess of pressure in the uppermost row; the diffusion
+// would carry it downwards, the row sink and be compressed again, and so pump pressure into the whole depth.
 #include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -154,9 +157,10 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
 #else
     const real renormalise = R(1.0);
 #endif
-    rates[RATE_COMPRESSION * stride + i] =
-        renormalise * (renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k] -
-                       (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence);
+    const real spread = renormalise * renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k];
+    const real steady = state[FIELD_STEADY * stride + i];
+    rates[RATE_COMPRESSION * stride + i] = spread - steady - renormalise * (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence;
+    rates[RATE_STEADY * stride + i] = p->steady_rate * (clamp(spread, -p->steady_limit, p->steady_limit) - steady);
     rates[RATE_SHEPARD * stride + i] = b.shepard;
   }
 }

@@ -21,6 +21,8 @@ real hydrostatic_z;
 real viscosity;           // μ, of the wall's shear
 real pair_viscosity;      // α h c₀ ρ₀ + 2(d+2) μ: artificial and Monaghan–Gingold viscosity have one form
 real density_diffusion;   // δ h c₀
+real steady_rate;         // 1/s, by which the steady part of the diffusion follows it
+real steady_limit;        // 1/s, of that part
 real guard_distance;      // nearer to a wall, a particle loses its approaching normal velocity
 real courant;             // of h/(c₀ + |u|)
 real viscous_time;        // bound on Δt from viscosity, s

@@ -101,12 +101,13 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
   derive(p, state, stride, i, half_state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
 }
 
-// The second drift of the compressions.
+// The second drift of the compressions, and a step of the diffusion's steady part.
 __kernel void compress(__constant const parameters_t* p, int count, __global real* state, int stride, __global const real* rates,
                        __global const real* time_step) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const real compression = state[FIELD_COMPRESSION * stride + i] + R(0.5) * time_step[0] * rates[RATE_COMPRESSION * stride + i];
+  state[FIELD_STEADY * stride + i] += time_step[0] * rates[RATE_STEADY * stride + i];
   derive(p, state, stride, i, compression, state[FIELD_MASS * stride + i]);
 }
 
