@@ -14,8 +14,8 @@ constexpr double least_room = 0.9;   // of a cell: the width that a gap must hav
 constexpr double least_apart = 0.7;  // of a cell's shortest side: the distance that particles of one gap must have
 constexpr double facing = 0.8;       // cosine: walls within 37° of facing each other make a gap
 
-constexpr double resting = 2.0, filling = 3.0;  // cells: widths up to which particles are placed by their gap, and have its volume
-constexpr double tolerance = 0.01;              // cells: so that all particles of one gap agree on its width
+constexpr double placed = 2.0, shared = 3.0;  // cells: widths up to which particles are placed by their gap, and have its volume
+constexpr double tolerance = 0.01;            // cells: so that all particles of one gap agree on its width
 constexpr float least_share = 0.5f, most_share = 2.0f;
 
 /// A place between two walls that face each other.
@@ -89,22 +89,39 @@ double rows_across(const Crowd& crowd, const Gap& gap, const Vector3d& place, co
   return rows;
 }
 
+/// Whether the region's water may reach a place.
+bool has_water(const FilledRegion& region, const Vector3d& place) {
+  const Vector3d cell = (place - region.first).array() / region.step.array().max(1e-300);
+  for (int axis = 0; axis < 3; ++axis)
+    if (region.step[axis] > 0 && (cell[axis] < -0.6 || cell[axis] > region.count[axis] - 0.4)) return false;
+  return region.surface.normal.dot(place) < region.surface.height + 0.1 * region.step.maxCoeff();
+}
+
 /// The particles of a gap have its volume among them, also where a row more or less would fill it.
 void share_gaps(const Basin& basin, FilledRegion& region) {
   region.share.assign(region.filled.size(), 1.0f);
-  Crowd crowd(region, filling);
+  Crowd crowd(region, shared);
   std::vector<std::pair<std::size_t, Gap>> gaps;
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
     if (!region.filled[c]) continue;
-    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, filling);
+    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, shared);
     if (!gap) continue;
     gaps.emplace_back(c, *gap);
     crowd.add(region.position[c]);
   }
   for (const auto& [c, gap] : gaps) {
+    if (!has_water(region, region.position[c] + (gap.width - gap.near - 0.5 * gap.cell) * gap.across))
+      continue;  // not filled to the wall across
     const double rows = rows_across(crowd, gap, region.position[c], region.step);
     region.share[c] = std::clamp(static_cast<float>(gap.width / (gap.cell * rows)), least_share, most_share);
   }
+}
+
+/// The same for all places of a gap, whichever of its walls is nearer.
+bool points_up(const Vector3d& across) {
+  int axis = 0;
+  across.cwiseAbs().maxCoeff(&axis);
+  return across[axis] > 0;
 }
 
 /// Every second cell of the lattice.
@@ -121,12 +138,13 @@ void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
   const double shortest = basin.dimensions == 2 ? std::min(region.step.x(), region.step.z()) : region.step.minCoeff();
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
     if (!region.filled[c]) continue;
-    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, resting);
+    const std::optional<Gap> gap = gap_about(*basin.grid, region.position[c], region.step, placed);
     if (!gap) continue;
     const double off = std::min(0.5 * gap->cell, 0.5 * gap->width);
     // the one row of a gap goes to and fro between its walls: packing would bend it so, but slowly
     const bool one_row = gap->width - 2 * off < least_apart * shortest;
-    const double from_wall = one_row ? (is_even(region, c) ? off : gap->width - off) : std::clamp(gap->near, off, gap->width - off);
+    const double from_wall =
+        one_row ? (is_even(region, c) == points_up(gap->across) ? off : gap->width - off) : std::clamp(gap->near, off, gap->width - off);
     const Vector3d place = region.position[c] + (from_wall - gap->near) * gap->across;
     region.filled[c] = 0;
     if (gap->width < least_room * gap->cell) continue;

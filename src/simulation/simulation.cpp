@@ -185,11 +185,12 @@ struct Simulation::Parts {
 
   /// The fluid's, with those of films that particles do not resolve.
   std::vector<WallWrench> wrenches(Solver& fluid) {
+    const WaterFilm::State films = film.find(fluid, coupling.now().frame, true);
+    fluid.set_film(films.lumps);
     std::vector<WallWrench> wrenches = fluid.wrenches();
-    const std::vector<RigidLoad> films = film.find(fluid, coupling.now().frame).loads;
     for (std::size_t o = 0; o < wrenches.size(); ++o) {
-      wrenches[o][0] += films[o].force;
-      wrenches[o][2] += films[o].torque;
+      wrenches[o][0] += films.loads[o].force;
+      wrenches[o][2] += films.loads[o].torque;
     }
     return wrenches;
   }
@@ -313,8 +314,10 @@ double Simulation::Parts::loading_seconds() {
   const double spent = compiling.seconds();
   if (spent < loading) return spent;
   try {
-    prepared_solver();
-  } catch (const Error&) {  // there is no room for two
+    const Stopwatch::Lap lap(compiling);
+    make_solver(compute::Device(compute::choose_device(scene.device), options.time_kernels), scene, layout, discretisation,
+                reference_points(world));  // another device keeps no programs yet
+  } catch (const Error&) {                 // there is no room for two
     return 0;
   }
   return compiling.seconds() - spent;
@@ -378,7 +381,7 @@ void Simulation::Parts::advance() {
 }
 
 void Simulation::Parts::find_films() {
-  WaterFilm::State films = film.find(*solver, coupling.now().frame);
+  WaterFilm::State films = film.find(*solver, coupling.now().frame, false);
   solver->set_film(films.lumps);
   coupling.set_film(std::move(films.loads));
 }

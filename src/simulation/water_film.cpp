@@ -29,8 +29,9 @@ constexpr double reading_distance = 0.1;
 // Thinner films are nothing to particles.
 constexpr double thinnest_lump = 0.02;
 
-// Of √(g Δx): a gap that opens so fast is filled by what comes in from its sides, and has no lumps.
-constexpr double fast_opening = 0.05;
+// Of √(g Δx), but no less than this part of the speed of sound: a gap between walls that are held has no lumps once it opens so fast, for
+// it fills with what comes in from its sides; one at a free body has all of them once it closes so fast, and none while it opens or stays.
+constexpr double fast = 0.05, least_fast = 1e-3;
 
 // Of a film's lumps: those of thicker ones lie upon each other, for one row in the middle would push particles to the walls.
 constexpr double thickest_lump = 0.5;
@@ -54,9 +55,9 @@ double emptiness(const PointValue& fluid) { return std::clamp((full - fluid.fill
 WaterFilm::Share film_share(double gap, double empty, double filling) {
   const double closed = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
   const double narrow = std::clamp((wide_gap - gap) / (wide_gap - narrow_gap), 0.0, 1.0);
-  const double room = std::max(closed, narrow * empty);
+  const double film = std::max(closed, narrow * empty);
   // particles beside a covered face press on its rim by 2 p Σ W V; about half of that belongs to the side beside it
-  return {room, std::min(room, 1.0 - rim_pressing * std::min(filling, 1.0 / rim_pressing))};
+  return {film, std::min(film, 1.0 - rim_pressing * std::min(filling, 1.0 / rim_pressing))};
 }
 
 Vector3d nearest_on_segment(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
@@ -86,6 +87,7 @@ WaterFilm::WaterFilm(const RigidWorld& world, const Case& scene, const Layout& l
     : world_(world),
       dimensions_(scene.dimensions),
       spacing_(discretisation.spacing),
+      sound_speed_(discretisation.sound_speed),
       density_(scene.fluid.density),
       gravity_(scene.gravity),
       surfaces_(world.count()),
@@ -170,7 +172,7 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
   std::vector<std::size_t> covered;
   for (std::size_t e = 0; e < count; ++e) {
     pressures[e] = std::max(film.fluid[e].pressure, 0.0);
-    if (film.covers[e].share.room <= 0) continue;
+    if (film.covers[e].share.film <= 0) continue;
     unknown[e] = static_cast<int>(covered.size());
     covered.push_back(e);
   }
@@ -204,12 +206,20 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
   return pressures;
 }
 
-std::vector<WaterFilm::Film> WaterFilm::films() {
+/// Whether a free body or particles feel the film.
+bool WaterFilm::is_felt(std::size_t body, const std::vector<Cover>& covers) const {
+  if (world_.is_free(body)) return true;
+  return std::any_of(covers.begin(), covers.end(),
+                     [this](const Cover& cover) { return cover.covered && (cover.gap >= thinnest_lump || world_.is_free(cover.owner)); });
+}
+
+std::vector<WaterFilm::Film> WaterFilm::films(bool all) {
   std::vector<Film> films;
   for (std::size_t body = 1; body < surfaces_.size(); ++body) {
     const Surface& surface = surfaces_[body];
     if (surface.elements.empty()) continue;
     Film film{body, pose(body), covers(body), std::vector<char>(surface.elements.size(), 0), {}};
+    if (!all && !is_felt(body, film.covers)) continue;
     for (std::size_t e = 0; e < film.covers.size(); ++e) {
       if (!film.covers[e].covered) continue;
       film.wanted[e] = 1;
@@ -261,10 +271,10 @@ void WaterFilm::add(const Film& film, const std::optional<FrameMotion>& frame, S
   for (std::size_t e = 0; e < surface.elements.size(); ++e) {
     // of two bodies with films the first one's elements count for both
     const auto& [covered, other, gap, share] = film.covers[e];
-    if (share.room <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
+    if (share.film <= 0 || (other < body && !surfaces_[other].elements.empty())) continue;
     const WallElement& element = surface.elements[e];
     const Vector3d normal = film.to_tank.linear() * element.normal;
-    const Vector3d force = share.pressing * pressures[e] * element.area * normal;
+    const Vector3d force = share.added * pressures[e] * element.area * normal;
     const Vector3d place = film.to_tank * element.centre;
     const auto add = [&](std::size_t owner, const Vector3d& part) {
       state.loads[owner].force += part;
@@ -273,21 +283,22 @@ void WaterFilm::add(const Film& film, const std::optional<FrameMotion>& frame, S
     add(body, force);
     add(other, -force);
     if (gap < thinnest_lump) continue;
-    const double opening = (velocity(body, place) - velocity(other, place)).dot(normal) / std::sqrt(gravity.norm() * spacing_);
-    const bool held = !world_.is_free(body) && !world_.is_free(other);
-    const double standing = std::clamp((held ? 1.0 : 0.0) - opening / fast_opening, 0.0, 1.0);
+    const double opening = (velocity(body, place) - velocity(other, place)).dot(normal);  // m/s
+    const bool held = !world_.is_free(body) && (other == 0 || !world_.is_free(other));    // in the tank, which its own axes go with
+    const double scale = std::max(fast * std::sqrt(gravity.norm() * spacing_), least_fast * sound_speed_);
+    const double felt = std::clamp((held ? 1.0 : 0.0) - opening / scale, 0.0, 1.0);
     const int layers = static_cast<int>(std::ceil(gap / thickest_lump));
     const double thickness = gap * spacing_ / layers;
     for (int k = 0; k < layers; ++k)
-      state.lumps.push_back({place - (k + 0.5) * thickness * normal, standing * share.room * thickness * element.area, pressures[e]});
+      state.lumps.push_back({place - (k + 0.5) * thickness * normal, felt * share.film * thickness * element.area, pressures[e]});
   }
 }
 
-WaterFilm::State WaterFilm::find(Solver& fluid, const std::optional<FrameMotion>& frame) {
+WaterFilm::State WaterFilm::find(Solver& fluid, const std::optional<FrameMotion>& frame, bool all) {
   std::vector<Film> found;
   {
     const Stopwatch::Lap lap(time_);
-    found = films();
+    found = films(all);
   }
   State state;
   state.loads.resize(surfaces_.size());

@@ -29,15 +29,16 @@ class WaterFilm {
     std::vector<RigidLoad> loads;  ///< one an owner about its reference point, in the tank's axes
     std::vector<FilmLump> lumps;   ///< in the tank's axes, body by body
   };
-  /// The films in the present state; `frame`: of a tank that moves. Nothing is asked of the fluid where no body is near a wall.
-  State find(Solver& fluid, const std::optional<FrameMotion>& frame);
+  /// The films in the present state; `frame`: of a tank that moves. Nothing is asked of the fluid where no body is near a wall. `all`: also
+  /// those that neither a free body nor particles feel.
+  State find(Solver& fluid, const std::optional<FrameMotion>& frame, bool all);
 
   /// Looking for films and solving them so far, without the fluid's part.
   const Stopwatch& time() const { return time_; }
 
   struct Share {
-    double room = 0;      ///< of the gap, what is film: 0 where it is open water, 1 where there are no particles
-    double pressing = 0;  ///< of the film's pressure, what is added to what particles press with
+    double film = 0;   ///< of the gap: 0 where it is open water, 1 where there are no particles
+    double added = 0;  ///< of the film's pressure, to what particles press with
   };
 
  private:
@@ -63,7 +64,8 @@ class WaterFilm {
     std::vector<PointValue> fluid;
   };
 
-  std::vector<Film> films();
+  std::vector<Film> films(bool all);
+  bool is_felt(std::size_t body, const std::vector<Cover>& covers) const;
   std::vector<Cover> covers(std::size_t body);
   void cover(std::size_t body, std::size_t other, std::vector<Cover>& covers) const;
   /// The fluid at the covered elements and those beside them; zero at the others.
@@ -78,6 +80,7 @@ class WaterFilm {
   const RigidWorld& world_;
   int dimensions_;
   double spacing_;
+  double sound_speed_;
   double density_;
   Vector3d gravity_;
   std::vector<Surface> surfaces_;

@@ -26,6 +26,7 @@ void SphSolver<Real>::set_hydrostatic() {
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
     state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
+    state[static_cast<std::size_t>(field::steady) * stride_ + i] = Real(0);
   }
   state_.upload(state);
 }

@@ -82,6 +82,30 @@ INSTANTIATE_TEST_SUITE_P(Walls, BoxOverFloor,
                                            Variant{"facet_3d", 3, WallElements::facet, ShepardFactor::geometric}),
                          [](const auto& info) { return info.param.name; });
 
+/// What a sample says depends on nothing but the state that it is of.
+TEST(BoxOverAFilm, FeelsTheSameAfterAReset) {
+  Simulation simulation(box_over_floor({"facet", 2, WallElements::facet, ShepardFactor::geometric}, 0.5));
+  const Samples first = run_to(simulation, 0.03);
+  simulation.reset();
+  const Samples second = run_to(simulation, 0.03);
+  ASSERT_EQ(first.wrenches.size(), second.wrenches.size());
+  ASSERT_GE(first.wrenches.size(), 3u);
+  for (std::size_t k = 0; k < first.wrenches.size(); ++k)
+    EXPECT_EQ(first.wrenches[k].wrenches[1].pressure_force, second.wrenches[k].wrenches[1].pressure_force) << "sample " << k;
+}
+
+/// A plate under water, half a spacing over the floor: the water above it feels the film under it at its edges alone.
+TEST(PlateOverAFilm, FeelsArchimedesForce) {
+  Case scene = box_over_floor({"facet", 2, WallElements::facet, ShepardFactor::geometric}, 0.5);
+  std::get<Box>(scene.bodies[0].shape).max.z() = 0.03;
+  Simulation simulation(scene);
+  const Force force = force_on(run_to(simulation, 0.2), 1, 0.05);
+  const double weight_above = density * gravity * 0.4 * 0.27, archimedes = density * gravity * 0.4 * 0.02;
+  std::printf("plate a spacing thick: %+.2f %% of the weight above it beside Archimedes' %.1f N\n",
+              100 * (force.mean.z() - archimedes) / weight_above, archimedes);
+  EXPECT_NEAR(force.mean.z(), archimedes, 0.06 * weight_above);
+}
+
 /// A box beside a wall of the tank, two spacings from it: the wall does not push it off.
 TEST(BoxBesideAWall, IsNotPushedOff) {
   Case scene = box_case(Vector3d(0.8, 0, 0.5), 0.3, 0.02);

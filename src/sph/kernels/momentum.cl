@@ -15,6 +15,7 @@
 #include "linear_fit.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
+#define NEAR_OWNERS (FACING_OWNERS + 2)
 #define NEEDS_FIT (FACETS || THIN_WALLS)
 
 typedef struct {
@@ -59,8 +60,8 @@ typedef struct {
   real beyond, behind;   // of the support, what lies beyond all walls and what behind the owner's
   vector_t touched_at;   // Σ ∫ y W dS over the owner's
   vector_t push, drag;   // of the owner's walls
-  int near_owners[FACING_OWNERS];  // whose walls are near, and Σ ∫ W dS over them
-  real near_weights[FACING_OWNERS];
+  int near_owners[NEAR_OWNERS];  // whose walls are near, and Σ ∫ W dS over them
+  real near_weights[NEAR_OWNERS];
 #endif
 } wall_sweep_t;
 
@@ -159,11 +160,12 @@ INLINE real fitted_push(const wall_sweep_t* a, __constant const parameters_t* p,
 #endif
 
 #if WALL_FORCES
-// An owner beyond the last slot is left out, whichever owner's forces are looked for.
+// An owner beyond the last slot is left out of a film's forces, whichever owner's forces are looked for.
 INLINE void count_owner(wall_sweep_t* a, int owner, real weight) {
+  if (weight == R(0.0)) return;
   int slot = 0;
-  while (slot < FACING_OWNERS && a->near_owners[slot] != NO_OWNER && a->near_owners[slot] != owner) ++slot;
-  if (slot == FACING_OWNERS) return;
+  while (slot < NEAR_OWNERS && a->near_owners[slot] != NO_OWNER && a->near_owners[slot] != owner) ++slot;
+  if (slot == NEAR_OWNERS) return;
   a->near_owners[slot] = owner;
   a->near_weights[slot] += weight;
 }
@@ -364,7 +366,7 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
 
 // What the film presses on particle i with, once its pressure is known; added to the other sums.
 INLINE vector_t add_film(wall_sweep_t* b, __constant const parameters_t* p, __global const real* film, __global const real* images) {
-  const vector_t push = film_sum(p, film, images, b->pressure, R(1.0), b->x, b->y, b->z);
+  const vector_t push = film_sum(p, b->walls, film, images, b->pressure, R(1.0), b->x, b->y, b->z);
   b->force_x += push.x;
   b->force_y += push.y;
   b->force_z += push.z;
@@ -386,7 +388,7 @@ INLINE real share_of_owner(const wall_sweep_t* b) {
 // The owner's part of what a film between walls gets: it has no mass, and hands it on to the walls on either side alike.
 INLINE real film_share_of_owner(const wall_sweep_t* b, __constant const parameters_t* p) {
   real own = R(0.0), all = R(0.0);
-  for (int slot = 0; slot < FACING_OWNERS && b->near_owners[slot] != NO_OWNER; ++slot) {
+  for (int slot = 0; slot < NEAR_OWNERS && b->near_owners[slot] != NO_OWNER; ++slot) {
     const real weight = fmax(b->near_weights[slot], R(0.0)) * p->smoothing_length;
     const real part = weight / (weight + R(0.01));  // fades in where a wall comes near
     all += part;
@@ -427,7 +429,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
   wall_sweep_t b = {0};
   start_wall_sums(&b, p, i, state, stride, walls, wall_loads);
   b.owner = owner;
-  for (int slot = 0; slot < FACING_OWNERS; ++slot) b.near_owners[slot] = NO_OWNER;
+  for (int slot = 0; slot < NEAR_OWNERS; ++slot) b.near_owners[slot] = NO_OWNER;
   take_pair_sums(&b, p, sums, k);
 #if GHOSTS
   add_repulsion(&b, p, images);
@@ -457,8 +459,8 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
 
 // Per run of slots of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
 __kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
-                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, int regions, __global const int* region_values,
-                          __global real* wrenches) {
+                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, int regions,
+                          __global const int* region_values, __global real* wrenches) {
   const int item = get_global_id(0);
   if (item >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;

@@ -54,10 +54,12 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
     LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-    const vector_t filled = film_sum(p, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+#if !GHOSTS
+    const vector_t filled = film_sum(p, &walls, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     b.error_x += filled.x;
     b.error_y += filled.y;
     b.error_z += filled.z;
+#endif
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);  // with ghosts: the lid and what the guard needs
     const real size = sqrt(b.error_x * b.error_x + b.error_y * b.error_y + b.error_z * b.error_z);
     // no further than a tenth of the spacing at once: on a coarse curved wall E is large at first
