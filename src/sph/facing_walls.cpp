@@ -22,6 +22,31 @@ std::vector<WallElement> pieces_that_may_face(const std::vector<WallElement>& pi
   return kept;
 }
 
+namespace {
+
+/// About each owner's pieces, with all that is within the support of them; the tank, owner 0, is about everything.
+template <class Real>
+std::vector<Real> spheres_about(const std::vector<WallElement>& pieces, const Discretisation& discretisation) {
+  std::vector<Eigen::AlignedBox3d> about(1);
+  for (const WallElement& piece : pieces) {
+    if (piece.owner >= static_cast<int>(about.size())) about.resize(piece.owner + 1);
+    about[piece.owner].extend(piece.centre - discretisation.origin);
+  }
+  constexpr double piece_size = 2.0;  // spacings, at the most
+  std::vector<Real> spheres;
+  for (std::size_t o = 0; o < about.size(); ++o) {
+    Vector3d centre = Vector3d::Zero();
+    if (!about[o].isEmpty()) centre = about[o].center();
+    const double radius =
+        about[o].isEmpty() ? 0.0 : 0.5 * about[o].diagonal().norm() + discretisation.support + piece_size * discretisation.spacing;
+    for (int axis = 0; axis < 3; ++axis) spheres.push_back(static_cast<Real>(centre[axis]));
+    spheres.push_back(static_cast<Real>(o == 0 ? -1.0 : radius));
+  }
+  return spheres;
+}
+
+}  // namespace
+
 template <class Real>
 FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<WallElement>& pieces, const Discretisation& discretisation)
     : device_(device), discretisation_(discretisation) {
@@ -38,6 +63,7 @@ FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<
     }
   }
   rest_ = compute::Buffer<Real>(device, rest);
+  spheres_ = compute::Buffer<Real>(device, spheres_about<Real>(pieces, discretisation));
   owners_ = compute::Buffer<int>(device, owners);
   places_ = compute::Buffer<Real>(device, 3 * pieces.size());
   forces_ = compute::Buffer<Real>(device, 3 * field::facing_owners * pieces.size());
@@ -54,7 +80,8 @@ void FacingWalls<Real>::add(const SolverKernels& kernels, const Surroundings<Rea
                             const WallArrays<Real>& walls, int regions, const compute::Buffer<int>& region_values,
                             compute::Buffer<Real>& totals) {
   if (count_ == 0) return;
-  surroundings.sweep(kernels.facing_walls, count_, state, walls, rest_, owners_, poses_.on_device(), places_, others_, forces_);
+  surroundings.sweep(kernels.facing_walls, count_, state, walls, rest_, owners_, poses_.on_device(), static_cast<int>(spheres_.size() / 4),
+                     spheres_, places_, others_, forces_);
   const int chunks = chunks_of(count_), items = regions * chunks;
   const std::size_t size = 6 * static_cast<std::size_t>(items);
   if (sums_.size() < size) sums_ = compute::Buffer<Real>(device_, size);

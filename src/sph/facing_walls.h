@@ -29,8 +29,9 @@ class FacingWalls {
   compute::Device device_;
   Discretisation discretisation_;
   int count_ = 0;
-  compute::Buffer<Real> rest_;   ///< centres, and areas times normals
-  compute::Buffer<int> owners_;  ///< of each piece
+  compute::Buffer<Real> spheres_;  ///< about each owner, at rest
+  compute::Buffer<Real> rest_;     ///< centres, and areas times normals
+  compute::Buffer<int> owners_;    ///< of each piece
   KeptBuffer<Real> poses_;
   compute::Buffer<Real> places_, forces_, sums_;
   compute::Buffer<int> others_;

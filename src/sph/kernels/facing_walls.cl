@@ -73,11 +73,25 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 // As wall_loads.cl has it.
 #define DRY R(0.01)
 
+// Whether any other owner's walls may be within the support of a piece. `spheres`: about each owner at rest, centre and radius with the support and what a
+// piece measures; a negative radius for what is everywhere.
+INLINE bool may_face(__global const real* spheres, __global const real* poses, int owners, int owner, real x, real y, real z) {
+  bool near = IMAGES;  // which bring walls to others far from them
+  for (int o = 0; o < owners; ++o) {
+    __global const real* sphere = spheres + 4 * o;
+    __global const real* pose = poses + 12 * o;
+    const vector_t centre = turned(pose, sphere[0], sphere[1], sphere[2]);
+    const real dx = centre.x + pose[9] - x, dy = centre.y + pose[10] - y, dz = centre.z + pose[11] - z;
+    near = near || (o != owner && (sphere[3] < R(0.0) || dx * dx + dy * dy + dz * dz < sphere[3] * sphere[3]));
+  }
+  return near;
+}
+
 // One piece of wall a work-item. `rest`: centre and area times normal, at rest; `poses`: of each owner, a rotation, row by row, and a shift. Results: where
 // it is, and of each slot the force that the piece gets from another owner, or NO_OWNER.
 __kernel void facing_walls(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
                            WALL_ARGUMENTS, __global const real* images, __global const real* rest, __global const int* owners,
-                           __global const real* poses, __global real* places, __global int* others, __global real* forces) {
+                           __global const real* poses, int owner_count, __global const real* spheres, __global real* places, __global int* others, __global real* forces) {
   const int s = get_global_id(0);
   if (s >= count) return;
   const int owner = owners[s];
@@ -85,6 +99,7 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   const vector_t moved = turned(pose, rest[s], rest[count + s], rest[2 * count + s]);
   const real x = moved.x + pose[9], y = moved.y + pose[10], z = moved.z + pose[11];
   for (int slot = 0; slot < FACING_OWNERS; ++slot) others[slot * count + s] = NO_OWNER;
+  if (!may_face(spheres, poses, owner_count, owner, x, y, z)) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
   wall_sweep_t b = {0};
   b.walls = &walls;
