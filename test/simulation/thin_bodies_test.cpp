@@ -87,6 +87,30 @@ TEST_F(ThinBodies, WedgesFeelArchimedesForce) {
   }
 }
 
+/// NACA 0012, 16 spacings long and 1.9 thick: the facets of either side fall away behind each other's planes.
+TEST_F(ThinBodies, AFoilFeelsArchimedesForce) {
+  constexpr double chord = 0.4, thickness = 0.12;
+  constexpr int stations = 16;
+  const auto half = [](double x) {
+    return 5 * thickness * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
+  };
+  std::vector<Vector3d> outline;
+  double area = 0;
+  for (int k = 0; k <= 2 * stations - 1; ++k) {  // along the lower side and back along the upper one
+    const double x = 0.5 * (1 - std::cos(M_PI * k / stations)), z = k < stations ? -half(x) : half(x);
+    outline.emplace_back(chord * x, 0, k == 0 || k == stations ? 0 : chord * z);
+  }
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vector3d &a = outline[k], &b = outline[(k + 1) % outline.size()];
+    area += 0.5 * (a.x() * b.z() - b.x() * a.z());
+  }
+  write_prism(path("foil.stl"), outline);
+  MeshSource mesh;
+  mesh.uri = path("foil.stl");
+  mesh.translation = Vector3d(0.2, 0, 0.15);
+  rests("foil", tank_with({"foil", mesh}), area, 0.1);
+}
+
 /// Water of 0.3 m behind a gate 1.3 spacings thick that stands on the floor.
 Case gate(Motion motion) {
   Case scene = box_case(Vector3d(0.6, 0, 0.5), 0.3, 0.015);

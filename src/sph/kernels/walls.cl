@@ -182,13 +182,22 @@ INLINE contact_t unseen(__constant const parameters_t* p, contact_t c) {
   return c;
 }
 
+#if FACETS
+// A convex side of a thin part falls away behind the plane of each of its facets: it is all one side, unlike a wall that stands as far behind the part.
+INLINE bool of_screens_side(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, const contact_t* c) {
+  const vector_t screen = make_vector(walls->screen[0], walls->screen[1], walls->screen[2]);
+  const real distance = -(dot3(screen, make_vector(x, y, z)) + walls->screen[3]);
+  return dot3(screen, c->normal) > R(0.5) && c->distance < distance + R(0.5) * p->spacing;
+}
+#endif
+
 // What thin walls leave of a wall for the point; `c`: all of it.
 INLINE contact_t visible_part(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, contact_t c) {
   const bool behind = c.distance < R(0.0);
   // beyond a thin wall's two sides: the rim between them is nothing of its own
   if (behind && WALL_FIELD(walls, WALL_THIN, s) > RIM) return unseen(p, c);
 #if FACETS
-  if (!behind && walls->screened) c = part_before(p, walls, s, x, y, z, c);
+  if (!behind && walls->screened && !of_screens_side(p, walls, x, y, z, &c)) c = part_before(p, walls, s, x, y, z, c);
 #endif
   if (c.weight <= R(0.0)) return behind && WALL_FIELD(walls, WALL_THIN, s) > R(0.5) ? unseen(p, c) : c;
   const real inverse = R(1.0) / c.weight;
