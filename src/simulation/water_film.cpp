@@ -115,11 +115,10 @@ Eigen::Isometry3d WaterFilm::pose(std::size_t owner) const {
   return pose;
 }
 
-/// Of an owner's wall, in the tank.
+/// Of an owner's wall, in the tank; m/s.
 Vector3d WaterFilm::velocity(std::size_t owner, const Vector3d& place) const {
   if (owner == 0 || !world_.moves(owner)) return Vector3d::Zero();
-  const RigidState state = world_.state_in_tank(owner);
-  return state.velocity + state.angular_velocity.cross(place - state.position);
+  return world_.state_in_tank(owner).velocity_at(place);
 }
 
 /// Where `other` is nearer to elements of `body` than any before.

@@ -8,15 +8,15 @@ SolverKernels::SolverKernels(const compute::Device& device, const compute::Sourc
   const auto kernel_of = [&](const char* file, const char* name, const std::string& own_options) {
     return compute::Program(device, files, file, own_options).kernel(name);
   };
-  const auto of_particles = [&](const char* file, const char* name, const std::string& own_options = "") {
-    return SweepKernel{kernel_of(file, name, fast + tiling.particles.build_options() + own_options), tiling.particles.own};
+  const auto of_particles = [&](const char* file, const char* name) {
+    return SweepKernel{kernel_of(file, name, fast + tiling.particles.build_options()), tiling.particles.own};
   };
   const auto of_points = [&](const char* file, const char* name) {
     return SweepKernel{kernel_of(file, name, fast + tiling.points.build_options()), 1};
   };
   continuity = of_particles("continuity.cl", "continuity");
-  momentum = of_particles("momentum.cl", "momentum", " -DWALL_FORCES=0");
-  wall_forces = of_particles("momentum.cl", "wall_forces", " -DWALL_FORCES=1");
+  momentum = of_particles("momentum.cl", "momentum");
+  wall_forces = of_particles("wall_forces.cl", "wall_forces");
   wall_forces.own = 1;  // an item is a run of slots
   gradient = of_particles("density_gradient.cl", "density_gradient");
   if (elements) loads = of_points("wall_loads.cl", "wall_loads");

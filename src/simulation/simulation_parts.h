@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling.h"
+#include "water_film.h"
+#include "wavetank/common/stopwatch.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/instruments/recorder.h"
+#include "wavetank/simulation/simulation.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// What a simulation is made of. Its members are in simulation.cpp (start and steps), simulation_watchdog.cpp, simulation_snapshot.cpp and
+/// estimate.cpp.
+struct Simulation::Parts {
+  Parts(const Case& checked, SimulationOptions given);
+
+  Layout laid_out(const Case& checked) const;
+  std::unique_ptr<Solver> prepared_solver();
+  void progress(const char* what, double fraction) const;
+  /// The fluid's, with those of films that particles do not resolve.
+  std::vector<WallWrench> wrenches(Solver& fluid);
+  /// One step with the samples that fall into it.
+  void advance();
+  /// The next step is short enough for what walls do in it.
+  void shorten_step();
+  /// The films that the next step begins with.
+  void find_films();
+  /// The step alone.
+  void step_on();
+  /// Throws Violation for a step that the simulation may not go on from.
+  void check(const StepReport& report);
+  /// Throws Violation where particles lie upon each other instead of filling their volume.
+  void check_volume();
+  /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
+  double loading_seconds();
+  /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
+  void check_bodies();
+  std::string when() const;  ///< for messages
+  /// Bodies and what the fluid has been told of them, as bytes; and back.
+  std::vector<char> saved_bodies() const;
+  void restore_bodies(const std::vector<char>& bytes);
+
+  SimulationOptions options;
+  Stopwatch compiling;
+  Layout layout;
+  double fastest;  ///< m/s, expected of walls
+  Case scene;
+  Discretisation discretisation;
+  RigidWorld world;
+  Coupling coupling;
+  WaterFilm film;
+  compute::Device device;
+  std::unique_ptr<Solver> solver;
+  Recorder recorder;
+  PackingReport packing;
+  std::vector<char> initial_fluid, initial_bodies;
+  double initial_time_step = 0;
+  double time = 0;
+  double time_step = 0;
+  std::uint64_t step = 0;
+  std::uint64_t guard_hits = 0;
+  StepReport report;
+  std::vector<double> reaches;  ///< of each owner, of its bounding box from its reference point at the start, m
+  std::vector<bool> left_tank;  ///< of each owner: it has, and that was said
+  bool told_of_loss = false;    ///< of the water's volume
+};
+
+/// Where torques are taken about.
+std::vector<Vector3d> reference_points(const RigidWorld& world);
+/// Elements or facets, whichever the case has; ghosts have facets for the guard.
+std::size_t walls_in_use(const Case& scene, const Layout& layout);
+
+}  // namespace wavetank
