@@ -137,6 +137,14 @@ bool is_rim(const Facet& facet, const Facet& face, double thickness, double tole
   return shared >= 1;
 }
 
+bool is_at_edge(const Facet& facet, const std::vector<FreeEdge>& edges, int dimensions, double tolerance) {
+  return std::any_of(edges.begin(), edges.end(), [&](const FreeEdge& edge) {
+    return edge.owner == facet.owner && std::any_of(facet.corners, facet.corners + dimensions, [&](const Vector3d& corner) {
+             return (nearest_on_triangle(corner, edge.from, edge.to, edge.to) - corner).norm() < tolerance;
+           });
+  });
+}
+
 /// The edge of a facet after its corner k (2-D: the end k of a segment).
 struct FacetEdge {
   Vector3d from, to, middle;
@@ -172,19 +180,38 @@ class EdgeFinder {
         tolerance_(1e-3 * layout.spacing) {}
 
   std::vector<FreeEdge> find() const {
-    std::vector<FreeEdge> edges;
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      if (thin_[f] != Thin::yes) continue;
-      for (int k = 0; k < ends(); ++k)
-        if (is_free(static_cast<int>(f), k))
-          edges.push_back({FacetEdge(facets_[f], k, dimensions_).from, FacetEdge(facets_[f], k, dimensions_).to, facets_[f].owner});
-    }
-    return edges;
+    std::vector<FreeEdge> found, others;
+    add_edges(found, [&](int f, int k) { return is_free(f, k); });
+    add_edges(others, [&](int f, int k) { return !is_free(f, k) && is_across_rim(f, k, found); });
+    found.insert(found.end(), others.begin(), others.end());
+    return found;
   }
 
  private:
   static constexpr double same_way = 0.85;       // cosine of the normals of two facets of one curved face
   static constexpr double towards_water = -0.1;  // of a neighbour's way from the edge, along the normal
+
+  template <class Wanted>
+  void add_edges(std::vector<FreeEdge>& edges, Wanted wanted) const {
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (thin_[f] != Thin::yes) continue;
+      for (int k = 0; k < ends(); ++k) {
+        const FacetEdge edge(facets_[f], k, dimensions_);
+        if (wanted(static_cast<int>(f), k)) edges.push_back({edge.from, edge.to, facets_[f].owner});
+      }
+    }
+  }
+
+  /// Where a slanting side ends at a rim, nothing need lie behind it: the other side's end is then the one that was found.
+  bool is_across_rim(int f, int k, const std::vector<FreeEdge>& edges) const {
+    if (kind(f, k) != EdgeKind::outer) return false;
+    const FacetEdge edge(facets_[f], k, dimensions_);
+    const std::vector<int> near = looker_.about(&edge.middle, &edge.middle + 1, tolerance_);
+    return std::any_of(near.begin(), near.end(), [&](int g) {
+      return thin_[g] == Thin::rim && facets_[g].owner == facets_[f].owner && distance(facets_[g], edge.middle) < tolerance_ &&
+             is_at_edge(facets_[g], edges, dimensions_, tolerance_);
+    });
+  }
 
   int ends() const { return dimensions_ == 2 ? 2 : 3; }
   bool moves(int owner) const { return static_cast<std::size_t>(owner) < moving_.size() && moving_[owner]; }
@@ -275,6 +302,10 @@ ThinParts find_thin_parts(const Layout& layout, int dimensions, double thickness
         if (faces[f] == Thin::yes && is_rim(facet, layout.facets[f], thickness, tolerance)) parts.facets[r] = Thin::rim;
     }
     parts.free_edges = EdgeFinder(layout, parts.facets, looker, dimensions).find();
+    // about the thickness both sides may be thin without ending as such: what joins them there is a solid's end, like any other wall
+    for (std::size_t r = 0; r < faces.size(); ++r)
+      if (parts.facets[r] == Thin::rim && !is_at_edge(layout.facets[r], parts.free_edges, dimensions, tolerance))
+        parts.facets[r] = Thin::no;
   }
   const auto on_rim = [&](const Vector3d& centre, const Vector3d& normal, int owner) {
     for (const int f : looker.about(&centre, &centre + 1, tolerance)) {

@@ -30,6 +30,7 @@ std::vector<Real> plane_values(const std::vector<Facet>& facets, const Discretis
       const Vector3d edge = facet.corners[(k + 1) % 3] - facet.corners[k];
       add_plane(facet.normal.cross(edge).normalized(), facet.corners[k], margin);
     }
+    values.push_back(static_cast<Real>(facet.owner));
   }
   return values;
 }

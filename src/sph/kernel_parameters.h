@@ -47,7 +47,7 @@ enum Wall {
   edges = tangent_x
 };
 constexpr int edge_count = 8;
-constexpr int barrier_count = 16;
+constexpr int barrier_count = 17;
 constexpr int free_edge_count = 8;
 constexpr int image_count = 37;
 constexpr int frame_count = 12;

@@ -22,7 +22,7 @@ INLINE vector_t film_about(__constant const parameters_t* p, const walls_t* wall
       const real t = fmax(R(1.0) - sqrt(rx * rx + ry * ry + rz * rz) * p->inverse_support, R(0.0));
       real weight = (own + share * lump[FILM_PRESSURE]) * t * t * t * lump[FILM_VOLUME];
 #if THIN_WALLS
-      if (has_barriers(p, walls, x, y, z) && hidden_in_cell(p, walls, x, y, z, rx, ry, rz)) weight *= transparency_at(p, walls, x, y, z);
+      if (has_barriers(p, walls, x, y, z) && hidden_in_cell(p, walls, x, y, z, rx, ry, rz) != NO_OWNER) weight *= transparency_at(p, walls, x, y, z);
 #endif
       sum = make_vector(sum.x + weight * rx, sum.y + weight * ry, sum.z + weight * rz);
     }

@@ -25,7 +25,8 @@ typedef struct {
 #endif
   tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
 #if WALL_FORCES && THIN_WALLS
-  tile across_x, across_y, across_z;  // of that the part of neighbours that thin walls hide: it goes through the wall, which has it
+  int owner;                          // of walls
+  tile across_x, across_y, across_z;  // of that the part of neighbours that the owner's thin walls hide: it goes through them, who have it
 #endif
 #if WALL_FORCES || VISCOSITY_MORRIS
   tile viscous_x, viscous_y, viscous_z;
@@ -115,7 +116,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->force_y += central * ry;
 #endif
 #if WALL_FORCES && THIN_WALLS
-  if (a->near.hiding) {
+  if (a->near.hidden_by == a->owner) {
     a->across_x += central * rx;
     a->across_y += central * ry;
     a->across_z += central * rz;

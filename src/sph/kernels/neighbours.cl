@@ -60,7 +60,7 @@ typedef struct {
   const walls_t* walls;
 #if THIN_WALLS
   real transparency;  // with which neighbours count that a thin wall hides
-  bool hiding;        // the neighbour that is added now is one of them
+  int hidden_by;      // whose thin wall hides the neighbour that is added now; NO_OWNER if none does
   real beyond;        // Σ W V of all that are beyond thin walls, in sight or not
 #endif
 #if GHOSTS
@@ -93,7 +93,7 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
   n->walls = walls;
 #if THIN_WALLS
   n->transparency = R(0.0);
-  n->hiding = false;
+  n->hidden_by = NO_OWNER;
   n->beyond = R(0.0);
 #endif
 #if GHOSTS
@@ -127,7 +127,7 @@ INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_va
 // Their volumes, as far as they count.
 INLINE tile near_volume(const neighbours_t* n, int j) {
 #if THIN_WALLS
-  return n->hiding ? n->transparency * near_field(n, FIELD_VOLUME, j) : near_field(n, FIELD_VOLUME, j);
+  return n->hidden_by != NO_OWNER ? n->transparency * near_field(n, FIELD_VOLUME, j) : near_field(n, FIELD_VOLUME, j);
 #else
   return near_field(n, FIELD_VOLUME, j);
 #endif
@@ -198,7 +198,8 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
 }
 
 #if THIN_WALLS
-#define BARRIER_COUNT 16  // plane n, o, and three edges' planes m, o, all with normal · x + o; inside an edge that is not negative
+#define BARRIER_COUNT 17  // plane n, o, and three edges' planes m, o, all with normal · x + o; inside an edge that is not negative; the owner
+#define BARRIER_OWNER 16
 
 // Whether the barrier stands at the point (x, y, z) of its plane.
 INLINE bool within_barrier(__global const real* b, real x, real y, real z) {
@@ -216,9 +217,9 @@ INLINE real crossing(__global const real* b, real x, real y, real z, real rx, re
   return within_barrier(b, x + part * rx, y + part * ry, z + part * rz) ? part : R(2.0);
 }
 
-// Whether the way from (x, y, z) along (rx, ry, rz) goes through a thin wall of the cell: in by one side and out by the other. What only cuts a corner of a
-// solid is not hidden by it; nor does any solid hide its corners.
-INLINE bool hidden_in_cell(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
+// Whose thin wall of the cell the way from (x, y, z) along (rx, ry, rz) goes through: in by one side and out by the other. What only cuts a corner of a
+// solid is not hidden by it; nor does any solid hide its corners. Of two owners the later, which it also is on the way back.
+INLINE int hidden_in_cell(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
   const int cell = cell_index(p, x, y, z);
   const int first = walls->barrier_start[cell], end = walls->barrier_start[cell + 1];
   for (int k = first; k < end; ++k) {
@@ -226,10 +227,11 @@ INLINE bool hidden_in_cell(__constant const parameters_t* p, const walls_t* wall
     if (crossing(in, x, y, z, rx, ry, rz, R(1.0)) > R(1.0)) continue;
     for (int l = first; l < end; ++l) {
       __global const real* out = walls->barriers + BARRIER_COUNT * walls->barrier_list[l];
-      if (in[0] * out[0] + in[1] * out[1] + in[2] * out[2] < R(-0.5) && crossing(out, x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0)) return true;
+      if (in[0] * out[0] + in[1] * out[1] + in[2] * out[2] < R(-0.5) && crossing(out, x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0))
+        return (int)fmax(in[BARRIER_OWNER], out[BARRIER_OWNER]);
     }
   }
-  return false;
+  return NO_OWNER;
 }
 
 // Whether that way comes out of any thin wall of the cell.

@@ -122,13 +122,14 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
       const real r2 = rx * rx + ry * ry + rz * rz;
       if (r2 >= p->support_squared) continue;
       // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
-      near->hiding = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz) || hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
-      if (near->hiding && near->transparency == R(0.0)) continue;
+      near->hidden_by = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz);
+      if (IMAGES && near->hidden_by == NO_OWNER) near->hidden_by = hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
+      if (near->hidden_by != NO_OWNER && near->transparency == R(0.0)) continue;
       if (near->transparency > R(0.0) && beyond_thin(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
         near->beyond += kernel_value(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
       add_particle(sums, p, j, rx, ry, rz, r2);
     }
-    near->hiding = false;
+    near->hidden_by = NO_OWNER;
     return;
   }
 #endif
@@ -294,6 +295,10 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
 #endif
 
 #if THIN_WALLS
+// Of the kernel: where thin walls hide less than this, their far side counts as wet. Off the tip of a part next to nothing is hidden, and next to nothing
+// beyond; their ratio would be noise.
+#define LITTLE_ROOM R(0.02)
+
 // Prepares the walls for what the point sees of them: how much of those that thin ones hide from it counts. About free edges as much as of its neighbours
 // beyond; but on a dry far side there is nothing for the far walls to cancel with.
 INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real transparency, real beyond, real x, real y, real z) {
@@ -305,7 +310,7 @@ INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real 
 #if FACETS
   for (int k = walls->start[centre]; k < walls->start[centre + 1]; ++k) {
     const int s = walls->list[k];
-    const contact_t all = touch_wall(p, walls, s, x, y, z);
+    const contact_t all = whole_wall(p, walls, s, x, y, z);
     room += all.shepard - visible_part(p, walls, s, x, y, z, all).shepard;
   }
 #else
@@ -314,13 +319,13 @@ INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real 
     for (int dy = DIMENSIONS == 3 ? -1 : 0; dy <= (DIMENSIONS == 3 ? 1 : 0); ++dy) {
       const int row = centre + dz * layer + dy * p->cells_x;
       for (int s = walls->start[row - 1]; s < walls->start[row + 2]; ++s) {
-        const contact_t all = touch_wall(p, walls, s, x, y, z);
+        const contact_t all = whole_wall(p, walls, s, x, y, z);
         if (all.weight > R(0.0)) room += all.shepard - visible_part(p, walls, s, x, y, z, all).shepard;
       }
     }
 #endif
   // far from full, a far side is not dry
-  walls->share = transparency * fmin(R(20.0) * beyond / fmax(room, R(1.0e-4)), R(1.0));
+  walls->share = transparency * fmin((R(20.0) * beyond + LITTLE_ROOM) / fmax(room, LITTLE_ROOM), R(1.0));
 }
 #define LOOK_THROUGH(walls, near, x, y, z) look_through(p, &(walls), (near).transparency, (near).beyond, x, y, z)
 #else

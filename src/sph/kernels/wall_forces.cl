@@ -76,8 +76,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
   f.push = mixed(R(1.0), b.push, missing, make_vector(b.force_x, b.force_y, b.force_z));
   f.push = mixed(R(1.0), f.push, film_share_of_owner(&b, p), film_push);
 #if THIN_WALLS
-  const real through = share * p->slope_scale;
-  f.push = mixed(R(1.0), f.push, through, make_vector(sums->across.x[k], sums->across.y[k], sums->across.z[k]));
+  f.push = mixed(R(1.0), f.push, p->slope_scale, make_vector(sums->across.x[k], sums->across.y[k], sums->across.z[k]));
 #endif
   f.drag = mixed(R(-1.0), b.drag, missing, make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z));
   const real inverse = R(1.0) / b.touched;
@@ -123,6 +122,9 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     if (!any) continue;
     sweep_t a = {0};
     start_sums(&a, p, first, end, state, stride, reach, &walls);
+#if THIN_WALLS
+    a.owner = owner;
+#endif
 #if GHOSTS
     sweep_ghosts(&a, p, slot_start, images);
 #else

@@ -207,12 +207,21 @@ INLINE contact_t visible_part(__constant const parameters_t* p, const walls_t* w
   if (behind)
     return behind_opposite(p, walls, x, y, z, R(1.01) * middle.x, R(1.01) * middle.y, R(1.01) * middle.z, c.normal) ? unseen(p, c) : c;
   // not quite to the wall, which may be thin itself
-  return hidden_in_cell(p, walls, x, y, z, R(0.99) * middle.x, R(0.99) * middle.y, R(0.99) * middle.z) ? unseen(p, c) : c;
+  return hidden_in_cell(p, walls, x, y, z, R(0.99) * middle.x, R(0.99) * middle.y, R(0.99) * middle.z) != NO_OWNER ? unseen(p, c) : c;
+}
+
+// A wall as it would be if nothing hid it. Who stands before one side of a sharp tip, or of a sheet, is behind the other: by next to nothing, but not by
+// rounding.
+INLINE contact_t whole_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
+  contact_t c = touch_wall(p, walls, s, x, y, z);
+  if (!walls->screened || !c.over || c.distance >= R(0.0) || c.distance <= -BEHIND_TOLERANCE * p->spacing) return c;
+  if (c.normal.x * walls->screen[0] + c.normal.y * walls->screen[1] + c.normal.z * walls->screen[2] < R(-0.5)) c.shepard = -c.shepard;
+  return c;
 }
 
 // A wall as the point sees it.
 INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
-  const contact_t all = touch_wall(p, walls, s, x, y, z);
+  const contact_t all = whole_wall(p, walls, s, x, y, z);
   if (!has_barriers(p, walls, x, y, z)) return all;
   contact_t c = visible_part(p, walls, s, x, y, z, all);
   c.weight += walls->share * (all.weight - c.weight);
