@@ -6,6 +6,7 @@
 #include "assemblies.h"
 #include "fluid_filling.h"
 #include "instrument_checks.h"
+#include "intruding_walls.h"
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wall_facing.h"
@@ -315,6 +316,9 @@ Layout lay_out(const Case& checked, const ResourceResolver& resolve) {
   layout.open_top = open.open_top();
   add_walls(parts, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
+  std::vector<TriangleMesh> meshes;
+  for (const Part& part : parts) meshes.push_back(part.mesh);
+  find_intruding(checked, meshes, assemblies, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   check_instruments(checked.instruments, basin, open, layout.spacing);
 

@@ -138,6 +138,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   for (int s = 0; s < count; ++s) {
     Facet place;
     for (Vector3d& corner : place.corners) corner = elements[cells.order[s]].centre;
+    place.normal = elements[cells.order[s]].normal;
     place.owner = elements[cells.order[s]].owner;
     shapes.push_back(place);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wavetank/geometry/mesh.h"
@@ -47,13 +48,16 @@ struct Layout {
   std::vector<double> levels;        ///< z of the free surface over each particle, as filled, m
   bool open_top = true;              ///< water could leave the tank over its highest point
   std::vector<bool> moving;          ///< of each owner: its walls move relative to the tank
+  /// Owners of which the first one's walls may lie inside the second as they move against each other: both ways round.
+  std::vector<std::pair<int, int>> intruding;
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
 /// Walls that the fluid cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor
-/// under it, where elements that the box covers partly are clipped at its sides. A body that moves has its whole outside, and hides nothing
-/// of other walls. Throws Error for every mesh fault, for fluid outside the
-/// tank or leaking from it, for an empty fill, and for a probe inside a body or outside the tank.
+/// under it, where elements that the box covers partly are clipped at its sides. A body that moves has the outside of itself and what is
+/// fixed to it, and hides nothing of other walls; where it may move into another body the facets of both are cut, see `intruding`.
+/// Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, and for a probe inside a body or
+/// outside the tank.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});
 
 }  // namespace wavetank
