@@ -7,6 +7,7 @@
 #include "fluid_filling.h"
 #include "instrument_checks.h"
 #include "mesh_scale.h"
+#include "intruding_walls.h"
 #include "mesh_topology.h"
 #include "polygon.h"
 #include "wall_facing.h"
@@ -397,6 +398,9 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   layout.open_top = open.open_top();
   add_walls(parts, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
+  std::vector<TriangleMesh> meshes;
+  for (const Part& part : parts) meshes.push_back(part.mesh);
+  find_intruding(checked, meshes, assemblies, layout);
   layout.lid = make_lid(basin, layout.spacing, regions);
   layout.up = hydrostatic_direction(checked, basin, layout);
   find_levels(checked, regions, layout);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "hidden_walls.h"
+
 namespace wavetank {
 namespace {
 
@@ -54,11 +56,16 @@ std::vector<Real> pose_values(const std::vector<WallPose>& poses, const Discreti
 template <class Real>
 MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
                                const WallArrays<Real>& walls, const std::vector<bool>& moving, const std::vector<Vector3d>& centres,
-                               const Discretisation& discretisation)
-    : device_(device), discretisation_(discretisation), radius_(moving.size(), 0.0), owner_moves_(moving.begin(), moving.end()) {
+                               const Layout& layout, const Discretisation& discretisation)
+    : device_(device),
+      discretisation_(discretisation),
+      hidden_(std::make_shared<HiddenWalls>(layout, discretisation.dimensions)),
+      radius_(moving.size(), 0.0),
+      owner_moves_(moving.begin(), moving.end()) {
   for (int s = 0; s < walls.count; ++s) {
     const Facet& shape = walls.shapes[s];
     if (!moving.at(shape.owner)) continue;
+    if (!hidden_->concerns(shape.owner)) listed_anew_.push_back(s);
     moving_.push_back(s);
     for (const Vector3d& corner : shape.corners)
       radius_[shape.owner] = std::max(radius_[shape.owner], (corner - centres[shape.owner]).norm());
@@ -66,7 +73,8 @@ MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::Sou
   if (moving_.empty()) return;
   if (walls.kind == WallKind::facets) {
     for (int s = 0; s < walls.count; ++s)
-      if (!moving.at(walls.shapes[s].owner)) add_cells_of(walls.shapes[s], s, 0.0, discretisation, still_);
+      if (!moving.at(walls.shapes[s].owner) && !hidden_->concerns(walls.shapes[s].owner))
+        add_cells_of(walls.shapes[s], s, 0.0, discretisation, still_);
   }
   field_count_ = fields_of(walls.kind, discretisation.dimensions);
   rest_ = compute::Buffer<Real>(device, walls.fields.download());
@@ -102,8 +110,11 @@ bool MovingWalls<Real>::lists_hold(const std::vector<WallPose>& poses) const {
 template <class Real>
 void MovingWalls<Real>::list_facets(WallArrays<Real>& walls, const std::vector<WallPose>& poses) {
   CellPairs pairs = still_;
-  for (const int s : moving_)
+  const auto list = [&](int s) {
     add_cells_of(moved(walls.shapes[s], poses), s, facet_margin * discretisation_.spacing, discretisation_, pairs);
+  };
+  for (const int s : listed_anew_) list(s);
+  for (const int s : hidden_->facets_in_sight(poses)) list(s);
   const CellOrder cells = lists_of(std::move(pairs), discretisation_);
   walls.starts.upload(cells.begin);
   if (cells.order.empty()) return;
@@ -114,10 +125,17 @@ void MovingWalls<Real>::list_facets(WallArrays<Real>& walls, const std::vector<W
 template <class Real>
 void MovingWalls<Real>::sort_elements(WallArrays<Real>& walls, const std::vector<WallPose>& poses) {
   std::vector<Vector3d> centres;
-  for (const Facet& shape : walls.shapes)
+  std::vector<int> seen, hidden;
+  for (int s = 0; s < walls.count; ++s) {
+    const Facet& shape = walls.shapes[s];
+    (hidden_->hides(shape, poses) ? hidden : seen).push_back(s);
+    if (seen.empty() || seen.back() != s) continue;
     centres.push_back(middle_of(owner_moves_[shape.owner] ? moved(shape, poses) : shape, discretisation_.dimensions));
-  const CellOrder cells = sorted_by_cell(centres, discretisation_);
+  }
+  CellOrder cells = sorted_by_cell(centres, discretisation_);
   walls.starts.upload(cells.begin);
+  for (int& s : cells.order) s = seen[s];
+  cells.order.insert(cells.order.end(), hidden.begin(), hidden.end());  // behind the last cell's, where no particle looks
   from_.upload(cells.order);
   moving_.clear();
   for (std::size_t slot = 0; slot < cells.order.size(); ++slot)

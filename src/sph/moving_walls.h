@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 
 #include "kept_buffer.h"
 #include "wall_arrays.h"
@@ -23,6 +24,8 @@ struct WallPose {
 template <class Real>
 std::vector<Real> pose_values(const std::vector<WallPose>& poses, const Discretisation& discretisation);
 
+class HiddenWalls;
+
 /// Keeps the walls on the device where their owners are. Fields are turned and moved on the device; the cells' lists are made
 /// anew on the host, but only once a wall has moved by a part of the spacing since, by which the lists reach too far.
 template <class Real>
@@ -30,7 +33,8 @@ class MovingWalls {
  public:
   /// `walls` as at rest; of each owner, whether it moves, and the point that its poses are about.
   MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const WallArrays<Real>& walls,
-              const std::vector<bool>& moving, const std::vector<Vector3d>& centres, const Discretisation& discretisation);
+              const std::vector<bool>& moving, const std::vector<Vector3d>& centres, const Layout& layout,
+              const Discretisation& discretisation);
 
   /// Moves the walls that were given to the constructor; one pose an owner.
   void place(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
@@ -49,10 +53,12 @@ class MovingWalls {
 
   compute::Device device_;
   Discretisation discretisation_;
-  std::vector<int> moving_;     ///< walls of owners that move
-  std::vector<double> radius_;  ///< of each owner: of its farthest corner from that point, m
+  std::shared_ptr<const HiddenWalls> hidden_;
+  std::vector<int> moving_;       ///< walls of owners that move
+  std::vector<int> listed_anew_;  ///< facets of owners that move, and are in sight always
+  std::vector<double> radius_;    ///< of each owner: of its farthest corner from that point, m
   std::vector<char> owner_moves_;
-  CellPairs still_;               ///< cells of the facets that stand
+  CellPairs still_;               ///< cells of the facets that stand, and are in sight whatever moves
   std::vector<WallPose> listed_;  ///< the poses that the lists were made for
   int field_count_ = 0;
   compute::Buffer<Real> rest_;

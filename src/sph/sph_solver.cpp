@@ -55,7 +55,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       id_(device, count_),
       spare_id_(device, count_),
       images_(tank_images(scene, layout, discretisation)),
-      walls_(case_walls_.arrays<Real>(device, true, {})),
+      walls_(case_walls_.arrays<Real>(device)),
       loads_(device, elements_ ? walls_.stride : 1),
       wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty()),
       guarded_(device, anything_free(scene), count_, stride_, centres.size()),
@@ -79,7 +79,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
-  if (owners_move) moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, discretisation_);
+  if (owners_move) moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, layout, discretisation_);
   build_kernels();
   set_wall_motions(motions_at_start());
   upload_particles(layout);

@@ -53,7 +53,7 @@ WallArrays<Real> SphSolver<Real>::make_supported_walls() const {
     throw Error(
         "numerics/packing/settling needs the tank's walls on all sides of the water where numerics/walls/method is ghost; "
         "set it to 0, or choose boundary_integral.");
-  return case_walls_.arrays<Real>(device_, true, lid);
+  return case_walls_.arrays_at_start<Real>(device_, true, lid);
 }
 
 template <class Real>
@@ -107,8 +107,9 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
 template <class Real>
 PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
   PackingReport report;
-  const WallArrays<Real> closed = case_walls_.arrays<Real>(device_, !ghosts_, case_walls_.lid());  // the ghosts themselves are the walls
-  const WallArrays<Real> of_guard = ghosts_ ? case_walls_.arrays<Real>(device_, true, case_walls_.lid()) : WallArrays<Real>();
+  const WallArrays<Real> closed =
+      case_walls_.arrays_at_start<Real>(device_, !ghosts_, case_walls_.lid());  // the ghosts themselves are the walls
+  const WallArrays<Real> of_guard = ghosts_ ? case_walls_.arrays_at_start<Real>(device_, true, case_walls_.lid()) : WallArrays<Real>();
   const WallArrays<Real>& guarded = ghosts_ ? of_guard : closed;
   Buffer total(device_, 2);
   const int report_interval = 10;

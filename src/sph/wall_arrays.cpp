@@ -54,13 +54,16 @@ bool is_small(const Facet& facet, double smoothing_length) {
   return longest < longest_small_edge * smoothing_length;
 }
 
-/// The edges that two large facets of one plane and one owner have in common.
+/// The edges that two large facets of one plane and one owner have in common, both of which are always seen whole.
 class InnerEdges {
  public:
-  InnerEdges(const std::vector<Facet>& facets, double smoothing_length) {
-    for (const Facet& given : facets) {
-      if (is_small(given, smoothing_length)) continue;
-      const Facet facet = turned_left(given, 3);
+  InnerEdges() = default;
+  InnerEdges(const std::vector<Facet>& facets, const std::vector<FacetPiece>& pieces, double smoothing_length) {
+    std::vector<bool> whole(facets.size(), true);
+    for (const FacetPiece& piece : pieces) whole[piece.facet] = false;
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      if (!whole[f] || is_small(facets[f], smoothing_length)) continue;
+      const Facet facet = turned_left(facets[f], 3);
       for (int k = 0; k < 3; ++k) {
         Uses& uses = uses_[key(facet, k)];
         ++uses.count;
@@ -140,23 +143,30 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   for (int s = 0; s < count; ++s) {
     Facet place;
     for (Vector3d& corner : place.corners) corner = elements[cells.order[s]].centre;
+    place.normal = elements[cells.order[s]].normal;
     place.owner = elements[cells.order[s]].owner;
     shapes.push_back(place);
   }
 }
 
 template <class Real>
-WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Thin>& thin, WallKind given,
-                             const Discretisation& d)
-    : kind(given), count(static_cast<int>(facets.size())), list(device, 1) {
+WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Facet>& wholes, const std::vector<FacetPiece>& pieces,
+                             const std::vector<Thin>& thin_wholes, WallKind given, const Discretisation& d)
+    : kind(given), count(static_cast<int>(wholes.size() + pieces.size())), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
   const int field_count = whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count);
   stride = whole ? field_count : std::max(count, 1);
-  const InnerEdges inner(whole && d.dimensions == 3 ? facets : std::vector<Facet>(), d.smoothing_length);
+  const InnerEdges inner = whole && d.dimensions == 3 ? InnerEdges(wholes, pieces, d.smoothing_length) : InnerEdges();
+  std::vector<Facet> facets = wholes;
+  std::vector<Thin> thin = thin_wholes;
+  for (const FacetPiece& piece : pieces) {
+    facets.push_back(piece.shape);
+    if (!thin.empty()) thin.push_back(thin_wholes[piece.facet]);
+  }
   std::vector<Vector3d> centres;
   for (const Facet& facet : facets) centres.push_back(middle_of(facet, d.dimensions));
-  const CellOrder cells = whole ? facets_by_cell(facets, d) : sorted_by_cell(centres, d);
+  const CellOrder cells = whole ? facets_by_cell(wholes, d) : sorted_by_cell(centres, d);
   Fields<Real> values(field_count, std::max(count, 1), whole, d);
   for (int s = 0; s < count; ++s) {
     const int source = whole ? s : cells.order[s];

@@ -18,9 +18,9 @@ struct WallArrays {
   WallArrays() = default;
   WallArrays(const compute::Device& device, const std::vector<WallElement>& rectangles, const std::vector<Thin>& thin,
              const Discretisation& discretisation);
-  /// `kind`: triangles or facets.
-  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<Thin>& thin, WallKind kind,
-             const Discretisation& discretisation);
+  /// `kind`: triangles or facets. `pieces`: of those facets that may be hidden in part; they follow the facets, and no list has them yet.
+  WallArrays(const compute::Device& device, const std::vector<Facet>& facets, const std::vector<FacetPiece>& pieces,
+             const std::vector<Thin>& thin, WallKind kind, const Discretisation& discretisation);
 
   WallKind kind = WallKind::facets;
   int count = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wavetank/geometry/mesh.h"
@@ -33,6 +34,12 @@ std::vector<Facet> facets_of(const WallElement& element, int dimensions);
 /// own.
 std::vector<WallElement> joined_rectangles(const std::vector<WallElement>& elements, double spacing, int dimensions);
 
+/// A part of a facet.
+struct FacetPiece {
+  int facet = 0;  ///< of Layout::facets
+  Facet shape;
+};
+
 /// A case's geometry, sampled at the particle spacing: what the solver starts from.
 struct Layout {
   double spacing = 0;                ///< m
@@ -48,13 +55,17 @@ struct Layout {
   std::vector<double> levels;        ///< height along `up` of the free surface over each particle, as filled, m
   bool open_top = true;              ///< water could leave the tank over its highest point
   std::vector<bool> moving;          ///< of each owner: its walls move relative to the tank
+  /// Owners of which the first one's walls may lie inside the second as they move against each other: both ways round.
+  std::vector<std::pair<int, int>> intruding;
+  std::vector<FacetPiece> pieces;  ///< of those facets that may lie partly in such a body: all of each, ascending
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.
 /// Hydrostatic along gravity is water that fills its region to the walls, or whose free surface is level: from a seed, or a box with
 /// gravity along an axis. Under the face of a box that is not level it is so along the axis nearest to gravity's. Walls that the fluid
 /// cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor under it, where elements
-/// that the box covers partly are clipped at its sides. A body that moves has its whole outside, and hides nothing of other walls. Throws
+/// that the box covers partly are clipped at its sides. A body that moves has the outside of itself and
+/// what is fixed to it, and hides nothing of other walls; where it may move into another body the facets of both have pieces, see `intruding`. Throws
 /// Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger than the tank, a body of
 /// a mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});

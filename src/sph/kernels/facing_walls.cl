@@ -31,6 +31,7 @@ typedef struct {
   int owner;
   vector_t normal;
   real own;                    // of the support, behind the owner's own walls
+  real touched;                // ∫ W dS over them
   int others[FACING_OWNERS];
   bool seen[FACING_OWNERS];    // any of them
   real behind[FACING_OWNERS];  // of the support, behind each other owner's walls
@@ -49,6 +50,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
   if (owner == a->owner) {
     a->own -= c.shepard;
+    a->touched += c.weight;
     return;
   }
 #if THIN_WALLS
@@ -69,6 +71,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 }
 
 #include "sweep.cl"
+
+// Of ∫ W dS in 1/h, which on a flat wall is about 3/4, and at an edge half of it.
+#define LEAST_OWN R(0.15)
 
 // As wall_loads.cl has it.
 #define DRY R(0.01)
@@ -118,7 +123,8 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   find_screen(p, &walls, px, py, pz);
 #endif
   sweep_walls(&b, p, &walls, images, px, py, pz);
-  if (b.others[0] == NO_OWNER) return;
+  // of a piece that lies inside another body the walls are not in the lists
+  if (b.others[0] == NO_OWNER || b.touched * p->smoothing_length < LEAST_OWN) return;
   sweep_t a = {0};
   neighbours_at(&a.near, state, stride, reach, &walls, px, py, pz);
   a.gravity = gravity_at(p, &walls, px, py, pz, make_vector(R(0.0), R(0.0), R(0.0)));
