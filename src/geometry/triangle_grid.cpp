@@ -33,6 +33,30 @@ bool meet(const Box& box, const Vector3d& low, const Vector3d& high) {
   return true;
 }
 
+/// Which boxes a straight way passes through.
+class Way {
+ public:
+  Way(const Vector3d& from, const Vector3d& to) : from_(from), low_(from.cwiseMin(to)), high_(from.cwiseMax(to)) {
+    for (int axis = 0; axis < 3; ++axis) inverse_[axis] = to[axis] == from[axis] ? 0 : 1 / (to[axis] - from[axis]);
+  }
+
+  bool operator()(const Box& box) const {
+    if (!meet(box, low_, high_)) return false;
+    double enter = 0, leave = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (inverse_[axis] == 0) continue;
+      const double a = (box.min[axis] - from_[axis]) * inverse_[axis], b = (box.max[axis] - from_[axis]) * inverse_[axis];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave + 1e-9;
+  }
+
+ private:
+  Vector3d from_, low_, high_;
+  double inverse_[3];
+};
+
 double distance_to(const Box& box, const Vector3d& point) {
   return (box.min - point).cwiseMax(point - box.max).cwiseMax(Vector3d::Zero()).norm();
 }
@@ -87,22 +111,22 @@ void TriangleGrid::split(int node) {
   split(children + 1);
 }
 
-template <class Visit>
-void TriangleGrid::visit_triangles(const Vector3d& low, const Vector3d& high, Visit visit) const {
+template <class MayMeet, class Visit>
+void TriangleGrid::visit_triangles(MayMeet may_meet, Visit visit) const {
   if (nodes_.empty()) return;
   int stack[64];  // halving leaves no more levels than an int has digits
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (!meet(node.bounds, low, high)) continue;
+    if (!may_meet(node.bounds)) continue;
     if (node.children >= 0) {
       stack[depth++] = node.children + 1;
       stack[depth++] = node.children;
       continue;
     }
     for (int i = node.first; i < node.last; ++i)
-      if (meet(prepared_[order_[i]].bounds, low, high) && visit(order_[i])) return;
+      if (may_meet(prepared_[order_[i]].bounds) && visit(order_[i])) return;
   }
 }
 
@@ -128,7 +152,7 @@ bool TriangleGrid::meets(const Prepared& t, const Vector3d& from, const Vector3d
 
 bool TriangleGrid::crosses(const Vector3d& from, const Vector3d& to, Walls walls) const {
   bool met = false;
-  visit_triangles(from.cwiseMin(to), from.cwiseMax(to), [&](int t) {
+  visit_triangles(Way(from, to), [&](int t) {
     double entry;
     met = selected(triangles_[t].owner, walls) && meets(prepared_[t], from, to, entry);
     return met;
@@ -138,7 +162,7 @@ bool TriangleGrid::crosses(const Vector3d& from, const Vector3d& to, Walls walls
 
 std::optional<TriangleGrid::Crossing> TriangleGrid::first_crossing(const Vector3d& from, const Vector3d& to) const {
   std::optional<Crossing> first;
-  visit_triangles(from.cwiseMin(to), from.cwiseMax(to), [&](int index) {
+  visit_triangles(Way(from, to), [&](int index) {
     const Prepared& t = prepared_[index];
     double entry;
     if (!meets(t, from, to, entry)) return false;
@@ -152,9 +176,9 @@ std::optional<TriangleGrid::Crossing> TriangleGrid::first_crossing(const Vector3
 
 std::optional<TriangleGrid::Nearest> TriangleGrid::nearest(const Vector3d& point, double radius) const {
   std::optional<Nearest> best;
-  visit_triangles(point.array() - radius, point.array() + radius, [&](int index) {
+  const auto may_be_nearer = [&](const Box& box) { return distance_to(box, point) <= (best ? best->distance : radius); };
+  visit_triangles(may_be_nearer, [&](int index) {
     const double least = best ? best->distance : radius;
-    if (distance_to(prepared_[index].bounds, point) > least) return false;
     const WallTriangle& t = triangles_[index];
     const Vector3d foot = nearest_on_triangle(point, t.a, t.b, t.c);
     const double distance = (point - foot).norm();
@@ -166,10 +190,11 @@ std::optional<TriangleGrid::Nearest> TriangleGrid::nearest(const Vector3d& point
 
 std::vector<int> TriangleGrid::overlapping(const Box& box) const {
   std::vector<int> found;
-  visit_triangles(box.min, box.max, [&](int index) {
-    found.push_back(index);
-    return false;
-  });
+  visit_triangles([&](const Box& bounds) { return meet(bounds, box.min, box.max); },
+                  [&](int index) {
+                    found.push_back(index);
+                    return false;
+                  });
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -65,9 +65,9 @@ class TriangleGrid {
     int children = -1;
   };
   void split(int node);
-  /// Calls visit(triangle) for those whose bounds meet the box, until it returns true.
-  template <class Visit>
-  void visit_triangles(const Vector3d& low, const Vector3d& high, Visit visit) const;
+  /// Calls visit(triangle) for those whose bounds may_meet(bounds) is true of, until it returns true.
+  template <class MayMeet, class Visit>
+  void visit_triangles(MayMeet may_meet, Visit visit) const;
 
   std::vector<WallTriangle> triangles_;
   std::vector<Prepared> prepared_;
