@@ -1,17 +1,41 @@
-# Each test/<room>/<name>_test.cpp is one gtest program <room>_<name>_test, linked with its room.
+# The test/<room>/*_test.cpp of a room are one gtest program <room>_test, linked with the room; each file of them is one of ctest's tests,
+# <room>_<name>_test, which runs the suites that the file has.
 get_property(rooms GLOBAL PROPERTY WAVETANK_ROOMS)
 foreach(library ${rooms})
   string(REGEX REPLACE "^wavetank_" "" room ${library})
   string(REGEX REPLACE "_library$" "" room ${room})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/${room}/*_test.cpp)
+  if(NOT sources)
+    continue()
+  endif()
+  catkin_add_executable_with_gtest(${room}_test ${sources} EXCLUDE_FROM_ALL)
+  target_link_libraries(${room}_test ${library} ${GTEST_MAIN_LIBRARIES})
+  target_compile_definitions(${room}_test PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
+  # what most of a test's compilation is spent on
+  target_precompile_headers(${room}_test PRIVATE <gtest/gtest.h> <Eigen/Geometry> <cmath> <cstdio> <fstream> <functional> <map> <random> <string> <vector>)
+  if(WAVETANK_STANDALONE)
+    set_target_properties(${room}_test PROPERTIES EXCLUDE_FROM_ALL FALSE)  # so that a plain build has them
+  endif()
+  if(TARGET tests)
+    add_dependencies(tests ${room}_test)
+  endif()
   foreach(source ${sources})
     get_filename_component(name ${source} NAME_WE)
-    catkin_add_gtest(${room}_${name} ${source})
-    target_link_libraries(${room}_${name} ${library} ${GTEST_MAIN_LIBRARIES})
-    target_compile_definitions(${room}_${name} PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
-    if(WAVETANK_STANDALONE)
-      set_target_properties(${room}_${name} PROPERTIES EXCLUDE_FROM_ALL FALSE)  # so that a plain build has them
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+    file(STRINGS ${source} heads REGEX "^(TYPED_)?TEST(_F|_P)?\\(")
+    string(REGEX REPLACE "(TYPED_)?TEST(_F|_P)?\\(([A-Za-z0-9]+),[^;]*" "\\3" suites "${heads}")
+    list(REMOVE_DUPLICATES suites)
+    if(NOT suites)
+      message(FATAL_ERROR "${source} has no TEST at the beginning of a line.")
     endif()
+    set(filters)
+    foreach(suite ${suites})
+      list(APPEND filters "${suite}.*" "*/${suite}.*" "${suite}/*")
+    endforeach()
+    list(JOIN filters ":" filter)
+    add_test(NAME ${room}_${name} COMMAND ${room}_test "--gtest_filter=${filter}"
+      --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/gtest-${room}_${name}.xml)
+    list(APPEND unit_tests ${room}_${name})
   endforeach()
 endforeach()
 
@@ -69,10 +93,10 @@ set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
 # The longest first, so that none is left to run by itself when the others are done.
 foreach(test sph_variants_test sph_wall_motion_test sph_channel_flow_test simulation_bodies_test sph_thin_plate_test sph_guard_test sph_tiling_test
         sph_moving_walls_test sph_shepard_figures_test)
-  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${test} PROPERTIES COST 100)
+  set_tests_properties(${test} PROPERTIES COST 100)
 endforeach()
 
 # Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for other processes or watches memory runs by itself.
 set(lone_tests ${all_tests})
-list(FILTER lone_tests EXCLUDE REGEX "_gtest_")
+list(REMOVE_ITEM lone_tests ${unit_tests})
 set_tests_properties(${lone_tests} PROPERTIES RUN_SERIAL TRUE)

@@ -79,9 +79,7 @@ void Recorder::add_pressures(const Case& scene, const Solver& solver) {
                           },
                           [this](double time, const Values& values) {
                             samples_.pressures.push_back({time, values});
-                          },
-                          {},
-                          false});
+                          }});
 }
 
 std::vector<Vector3d> Recorder::places_of_probes() const {
@@ -97,9 +95,7 @@ void Recorder::add_levels(const Case& scene, const Layout& layout, const Solver&
                           [this](Solver& fluid) { return gauges_->read(fluid); },
                           [this](double time, const Values& values) {
                             samples_.levels.push_back({time, values});
-                          },
-                          {},
-                          false});
+                          }});
 }
 
 void Recorder::add_wrenches(const Case& scene) {
@@ -127,9 +123,7 @@ void Recorder::add_wrenches(const Case& scene) {
                               sample.wrenches.push_back({part(0), part(1), part(2), part(3)});
                             }
                             samples_.wrenches.push_back(std::move(sample));
-                          },
-                          {},
-                          false});
+                          }});
 }
 
 EnergySample Recorder::energies(Solver& fluid, double time) const {
@@ -151,9 +145,7 @@ void Recorder::add_energies(const Case& scene) {
                           },
                           [this](double time, const Values& values) {
                             samples_.energies.push_back({time, values[0], values[1], values[2], values[3]});
-                          },
-                          {},
-                          false});
+                          }});
 }
 
 void Recorder::add_poses(const Case& scene) {
@@ -162,30 +154,31 @@ void Recorder::add_poses(const Case& scene) {
                           [this, any](Solver&) { return any ? values_of(world_) : Values(); },
                           [this, any](double time, const Values& values) {
                             if (any) samples_.poses.push_back(pose_sample(time, values, world_.count()));
-                          },
-                          {},
-                          false});
+                          }});
 }
 
 void Recorder::start(Solver& solver) {
   for (Instrument& instrument : instruments_) {
     instrument.clock.set_index(0);
+    instrument.after_time = -1;
     instrument.record(0.0, instrument.read(solver));
     instrument.clock.tick();
   }
 }
 
-void Recorder::before_step(Solver& solver, double, double next_time) {
+void Recorder::before_step(Solver& solver, double time, double next_time) {
   for (Instrument& instrument : instruments_) {
     instrument.due = instrument.clock.next() <= next_time;
-    if (instrument.due) instrument.before = instrument.read(solver);
+    if (instrument.due) instrument.before = instrument.after_time == time ? instrument.after : instrument.read(solver);
   }
 }
 
 void Recorder::after_step(Solver& solver, double time, double next_time) {
   for (Instrument& instrument : instruments_) {
     if (!instrument.due) continue;
-    const Values after = instrument.read(solver);
+    instrument.after = instrument.read(solver);
+    instrument.after_time = next_time;
+    const Values& after = instrument.after;
     while (instrument.clock.next() <= next_time) {
       const double sample_time = instrument.clock.next();
       const double share = (sample_time - time) / (next_time - time);
@@ -206,8 +199,8 @@ double Recorder::seconds_a_step(Solver& solver, double time_step) const {
     const Clock::time_point begin = Clock::now();
     for (int k = 0; k < readings; ++k) instrument.read(solver);
     const double reading = std::chrono::duration<double>(Clock::now() - begin).count() / readings;
-    const double steps_with_samples = std::min(instrument.clock.rate() * time_step, 1.0);
-    seconds += 2 * steps_with_samples * reading;  // before the step and after it
+    // before the step and after it, but at no instant twice
+    seconds += std::min(2 * instrument.clock.rate() * time_step, 1.0) * reading;
   }
   return seconds;
 }
@@ -221,7 +214,10 @@ std::array<std::uint64_t, Recorder::instrument_count> Recorder::clock_indices() 
 }
 
 void Recorder::set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices) {
-  for (std::size_t k = 0; k < instrument_count; ++k) instruments_[k].clock.set_index(indices[k]);
+  for (std::size_t k = 0; k < instrument_count; ++k) {
+    instruments_[k].clock.set_index(indices[k]);
+    instruments_[k].after_time = -1;
+  }
   samples_ = {};
 }
 

@@ -1,14 +1,10 @@
 #include "wavetank/node/bag_run.h"
 
-#include <tf2_msgs/TFMessage.h>
-
 #include <cstdio>
 #include <filesystem>
 
 #include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
-#include "wavetank/node/clouds.h"
-#include "wavetank/node/markers.h"
 #include "wavetank/node/resources.h"
 
 namespace wavetank {
@@ -17,8 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double status_period = 0.01;  ///< s of simulated time
-constexpr double rounding = 1e-9;       ///< s, below any instrument's period
+constexpr double rounding = 1e-9;  ///< s, below any step
 
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
@@ -37,7 +32,7 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
   const auto whole = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
   if (!options_.save.empty() && !options_.bag.empty() && whole(options_.save) == whole(options_.bag))
     throw Error("--bag and --save are both '" + options_.save + "'; give each a file of its own");
-  if (!options_.bag.empty()) bag_ = std::make_unique<BagWriter>(options_.bag, "/wavetank");
+  if (!options_.bag.empty()) recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_, options_.clouds);
 }
 
 BagRun::Outcome BagRun::run() {
@@ -82,11 +77,10 @@ void BagRun::start() {
   device_ = simulation_->device_description();
   first_ = last_ = simulation_->state();
   energies_ = simulation_->energies();
-  next_status_ = next_cloud_ = first_.time;
   progress_.set_begin(first_.time);
-  frames_ = body_frames(case_, reference_points(simulation_->bodies()));
-  messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout(), frames_);
-  if (bag_) write_first_messages();
+  const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation_->bodies()));
+  messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout(), frames);
+  if (recorder_) recorder_->start(*simulation_, frames);
 }
 
 void BagRun::step_to_the_end() {
@@ -110,49 +104,28 @@ void BagRun::write_samples() {
   last_ = simulation_->state();
   if (!samples.energies.empty()) energies_ = samples.energies.back();
   seconds_ = elapsed();
-  if (!bag_) return;
+  if (!recorder_) return;
   messages_->emit(samples, clock_,
-                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { bag_->write(topic, stamp, message); });
-  for (const EnergySample& energies : samples.energies) write_status(energies);
-  if (options_.clouds) write_clouds();
-}
-
-void BagRun::write_first_messages() {
-  const ros::Time stamp = clock_.at(first_.time);
-  bag_->write_latched("case", stamp, case_message(simulation_->scene(), device_));
-  bag_->write_latched("markers", stamp, markers(case_, simulation_->layout(), frames_));
-  tf2_msgs::TFMessage transforms;
-  transforms.transforms = static_transforms(case_, frames_);
-  bag_->write_latched("/tf_static", stamp, transforms);
-}
-
-void BagRun::write_status(const EnergySample& energies) {
-  if (energies.time < next_status_ - rounding) return;
-  next_status_ += status_period;
-  RunState run;
-  run.phase = SolverStatus::RUNNING;
-  run.start_progress = 1.0;
-  run.device = device_;
+                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { recorder_->write(topic, stamp, message); });
+  RunState run = run_state(SolverStatus::RUNNING);
   if (seconds_ > 0) {
     run.real_time_factor = (last_.time - first_.time) / seconds_;
     run.steps_per_second = static_cast<double>(last_.step - first_.step) / seconds_;
   }
-  SolverState solver = last_;
-  solver.time = energies.time;
-  bag_->write("status", clock_.at(energies.time), status_message(case_, solver, energies, run, clock_));
+  recorder_->record(*simulation_, samples.energies, run);
 }
 
-void BagRun::write_clouds() {
-  if (last_.time < next_cloud_ - rounding) return;
-  next_cloud_ += 1.0 / case_.publishing.cloud_bag_rate;
-  const auto cloud =
-      cloud_message(simulation_->free_surface(), CloudFields::surface, case_.publishing.max_points, case_.publishing.world_frame, clock_);
-  bag_->write("free_surface", cloud.header.stamp, cloud);
+RunState BagRun::run_state(std::uint8_t phase) const {
+  RunState run;
+  run.phase = phase;
+  run.start_progress = 1.0;
+  run.device = device_;
+  return run;
 }
 
 void BagRun::finish() {
   if (!violation_.empty()) save_violation();
-  if (bag_ && bag_->is_open()) finish_bag();
+  if (recorder_ && recorder_->is_open()) finish_bag();
   if (!violation_.empty()) return;
   if (!cut_short_.empty())
     save_what_is_left();
@@ -161,14 +134,10 @@ void BagRun::finish() {
 }
 
 void BagRun::finish_bag() {
-  RunState run;
-  run.phase = violation_.empty() && cut_short_.empty() ? SolverStatus::FINISHED : SolverStatus::FAILED;
-  run.start_progress = 1.0;
-  run.device = device_;
+  RunState run = run_state(violation_.empty() && cut_short_.empty() ? SolverStatus::FINISHED : SolverStatus::FAILED);
   run.failure = violation_.empty() ? cut_short_ : violation_;
   try {
-    bag_->write_last("status", clock_.at(last_.time), status_message(case_, last_, energies_, run, clock_));
-    bag_->finish();
+    recorder_->finish(last_, energies_, run);
     bag_is_whole_ = true;
   } catch (const BagError& error) {
     cut_short_ = error.what();
@@ -245,7 +214,7 @@ void BagRun::report() const {
   if (simulated > 0) std::printf(", %.3g times the simulated", seconds_ / simulated);
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
-  if (bag_is_whole_) std::printf("bag               %s\n", bag_->path().c_str());
+  if (bag_is_whole_) std::printf("bag               %s\n", recorder_->path().c_str());
   if (!options_.save.empty() && violation_.empty() && cut_short_.empty()) std::printf("snapshot          %s\n", options_.save.c_str());
   if (!options_.profile) return;
   std::printf("\n%-32s %10s %12s %8s\n", "kernel", "launches", "seconds", "share");

@@ -51,7 +51,7 @@ RunOptions read_command_line(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   options.overrides = take_overrides(arguments);
   std::string shown_only, duration, device;
-  bool check = false, list_devices = false, show_version = false;
+  bool check = false, schedule = false, list_devices = false, show_version = false;
 
   CLI::App app("wavetank_run: simulates a case without a ROS master and writes a bag.", "wavetank_run");
   app.footer(footer);
@@ -66,6 +66,7 @@ RunOptions read_command_line(int argc, char** argv) {
   app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");
   app.add_flag("--quiet,-q", options.quiet, "print nothing but warnings and errors");
   app.add_flag("--check", check, "read and lay out the case, report sizes, masses, draughts and the estimated time, run nothing");
+  app.add_flag("--schedule", schedule, "print the stages of the case's time step, and what each reads and writes; run nothing");
   app.add_flag("--list-devices", list_devices, "print the OpenCL devices of this machine");
   app.add_flag("--version", show_version, "print the version");
 
@@ -92,7 +93,9 @@ RunOptions read_command_line(int argc, char** argv) {
   if (options.clouds && options.bag.empty()) throw Error("--clouds needs --bag FILE to write them to");
   if (!duration.empty()) options.overrides.push_back({"duration", duration});
   if (!device.empty()) options.overrides.push_back({"device", yaml_of(device)});  // quoted: 0:1 is a number to some YAML
+  if (check && schedule) throw Error("--check and --schedule are asked for, but each prints a page of its own: give one of them");
   if (check) options.action = RunOptions::Action::check;
+  if (schedule) options.action = RunOptions::Action::schedule;
   return options;
 }
 

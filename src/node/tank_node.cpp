@@ -1,7 +1,6 @@
 #include "wavetank/node/tank_node.h"
 
 #include <rosgraph_msgs/Clock.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +15,6 @@ namespace wavetank {
 namespace {
 
 constexpr std::uint32_t sample_queue = 100000;  ///< messages a subscriber may lag behind before samples are lost to it
-constexpr double bag_status_period = 0.01;      ///< s of simulated time
 constexpr auto clock_period = std::chrono::milliseconds(10);
 constexpr auto recorder_pause = std::chrono::milliseconds(500);  ///< between a recorder's first and last subscription
 
@@ -42,7 +40,8 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
       last_tick_(Clock::now()) {
   check_names(case_);
   const NodeParameters& parameters = setup_.parameters;
-  if (!parameters.bag.empty()) bag_ = std::make_unique<BagWriter>(parameters.bag, private_.getNamespace());
+  if (!parameters.bag.empty())
+    recorder_ = std::make_unique<RunRecorder>(parameters.bag, private_.getNamespace(), case_, clock_, parameters.bag_clouds);
   advertise_topics();
   clouds_ = std::make_unique<CloudPublisher>(private_, case_.publishing, clock_);
   diagnostics_.setHardwareID(case_.device);
@@ -138,7 +137,7 @@ LoopHooks TankNode::make_hooks() {
   hooks.restarted = [this](const SolverState& last) {
     inputs_.clear();
     clock_.restart_after(last.time);
-    next_bag_cloud_ = next_bag_status_ = 0.0;
+    if (recorder_) recorder_->restart();
     log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");
   };
   hooks.idle = [this](const Simulation& simulation) { idle(simulation); };
@@ -149,21 +148,11 @@ LoopHooks TankNode::make_hooks() {
 void TankNode::started(const Simulation& simulation) {
   const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation.bodies()));
   messages_ = std::make_unique<SampleMessages>(case_, simulation.layout(), frames);
-  const auto drawing = markers(case_, simulation.layout(), frames);
-  const auto scene = case_message(simulation.scene(), simulation.device_description());
-  markers_.publish(drawing);
-  case_publisher_.publish(scene);
+  markers_.publish(markers(case_, simulation.layout(), frames));
+  case_publisher_.publish(case_message(simulation.scene(), simulation.device_description()));
   const auto transforms = static_transforms(case_, frames);
   if (!transforms.empty()) static_transforms_.sendTransform(transforms);
-  const double time = simulation.state().time;
-  next_bag_cloud_ = next_bag_status_ = time;
-  if (bag_) {
-    bag_->write_latched("markers", clock_.at(time), drawing);
-    bag_->write_latched("case", clock_.at(time), scene);
-    tf2_msgs::TFMessage message;
-    message.transforms = transforms;
-    bag_->write_latched("/tf_static", clock_.at(time), message);
-  }
+  if (recorder_) recorder_->start(simulation, frames);
   if (!setup_.parameters.restore.empty()) publish_present_poses(simulation);
   log(LogLevel::info, simulation.summary());
   subscribers_due_ =
@@ -185,20 +174,12 @@ void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   const bool has_samples = !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty();
   if (has_samples || Clock::now() >= clock_due_) publish_clock(time);
   publish_samples(samples);
-  if (!bag_) return;
-  for (const EnergySample& energies : samples.energies) {
-    if (energies.time < next_bag_status_ - 1e-9) continue;
-    next_bag_status_ += bag_status_period;
-    LoopStatus status;
-    status.phase = LoopPhase::running;
-    status.start_progress = 1.0;
-    status.solver = simulation.state();
-    status.solver.time = energies.time;
-    status.energies = energies;
-    status.device = simulation.device_description();
-    bag_->write("status", clock_.at(energies.time), make_status(status));
-  }
-  if (setup_.parameters.bag_clouds) write_cloud(simulation, time);
+  if (!recorder_) return;
+  LoopStatus status;
+  status.phase = LoopPhase::running;
+  status.start_progress = 1.0;
+  status.device = simulation.device_description();
+  recorder_->record(simulation, samples.energies, run_state(status));
 }
 
 void TankNode::publish_samples(const Samples& samples) {
@@ -216,15 +197,7 @@ void TankNode::send(const std::string& topic, const Message& message) {
 template <class Message>
 void TankNode::publish_sample(const std::string& topic, const ros::Time& stamp, const Message& message) {
   send(topic, message);
-  if (bag_) bag_->write(topic, stamp, message);
-}
-
-void TankNode::write_cloud(const Simulation& simulation, double time) {
-  if (time < next_bag_cloud_) return;
-  next_bag_cloud_ += 1.0 / case_.publishing.cloud_bag_rate;
-  const auto cloud =
-      cloud_message(simulation.free_surface(), CloudFields::surface, case_.publishing.max_points, case_.publishing.world_frame, clock_);
-  bag_->write("free_surface", cloud.header.stamp, cloud);
+  if (recorder_) recorder_->write(topic, stamp, message);
 }
 
 void TankNode::idle(const Simulation& simulation) {
@@ -272,14 +245,13 @@ bool TankNode::everything_is_heard() {
 }
 
 void TankNode::ended(const LoopStatus& status) {
-  if (!bag_ || !bag_->is_open()) return;
+  if (!recorder_ || !recorder_->is_open()) return;
   if (!messages_) {  // it never started
-    bag_.reset();
+    recorder_.reset();
     return;
   }
-  bag_->write_last("status", clock_.at(status.solver.time), make_status(status));
-  bag_->finish();
-  log(LogLevel::info, "wrote '" + std::filesystem::absolute(bag_->path()).string() + "'");
+  recorder_->finish(status.solver, status.energies, run_state(status));
+  log(LogLevel::info, "wrote '" + std::filesystem::absolute(recorder_->path()).string() + "'");
 }
 
 }  // namespace wavetank

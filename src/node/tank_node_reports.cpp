@@ -37,7 +37,7 @@ std::string TankNode::snapshot_path(const std::string& what) const {
 void TankNode::every_second() {
   const LoopStatus status = loop_->status();
   measure_rates(status);
-  status_.publish(make_status(status));
+  status_.publish(status_message(case_, status.solver, status.energies, run_state(status), clock_));
   note_clock(status);
   if (!status.device.empty()) diagnostics_.setHardwareID(status.device);
   // Not update(): that paces itself by ROS time, which stands still while paused.
@@ -56,7 +56,7 @@ void TankNode::measure_rates(const LoopStatus& status) {
   last_step_ = status.solver.step;
 }
 
-SolverStatus TankNode::make_status(const LoopStatus& status) const {
+RunState TankNode::run_state(const LoopStatus& status) const {
   RunState run;
   run.phase = phase_code(status.phase);
   run.paused = status.paused;
@@ -65,7 +65,7 @@ SolverStatus TankNode::make_status(const LoopStatus& status) const {
   run.steps_per_second = steps_per_second_;
   run.device = status.device;
   run.failure = status.failure;
-  return status_message(case_, status.solver, status.energies, run, clock_);
+  return run;
 }
 
 void TankNode::fill_diagnostics(diagnostic_updater::DiagnosticStatusWrapper& report) {

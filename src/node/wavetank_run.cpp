@@ -11,6 +11,7 @@
 #include "wavetank/node/check_report.h"
 #include "wavetank/node/resources.h"
 #include "wavetank/node/run_options.h"
+#include "wavetank/sph/schedule_page.h"
 
 namespace {
 
@@ -53,6 +54,10 @@ void check(const RunOptions& options) {
   std::fputs(check_report(checked, estimate(checked, simulation_options)).c_str(), stdout);
 }
 
+void print_schedule(const RunOptions& options) {
+  std::fputs(schedule_page(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})).c_str(), stdout);
+}
+
 int run(const RunOptions& options) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -82,6 +87,9 @@ int main(int argc, char** argv) {
         return 0;
       case RunOptions::Action::check:
         check(options);
+        return 0;
+      case RunOptions::Action::schedule:
+        print_schedule(options);
         return 0;
       case RunOptions::Action::run:
         return run(options);

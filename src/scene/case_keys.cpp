@@ -172,7 +172,11 @@ Section<NumericsCase> numerics_section() {
               choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
               "What the fluid does where its pressure would fall below that of the air.");
   section.key("shifting", &NumericsCase::shifting, choice<Shifting>({{"none", Shifting::none}}), "", "Particle shifting law.");
-  section.key("integrator", &NumericsCase::integrator, choice<Integrator>({{"symplectic", Integrator::symplectic}}), "", "Time scheme.");
+  section.key("integrator", &NumericsCase::integrator, 
+              choice<Integrator>({{"symplectic", Integrator::symplectic},
+                                  {"predictor_corrector", Integrator::predictor_corrector},
+                                  {"runge_kutta_4", Integrator::runge_kutta_4}}),
+              "", "Time scheme.");
   section.key("courant", &NumericsCase::courant, number(above_up_to(0, 1.5)), "", "Time step as a fraction of h/(c₀ + |u|).");
   section.key("precision", &NumericsCase::precision, choice<Precision>({{"single", Precision::single}, {"double", Precision::double_}}), "",
               "Of the numbers on the device; not every device has double.");

@@ -153,21 +153,20 @@ double Coupling::allowed_step(double time_step) const {
 
 WallMotions Coupling::now() const { return motions_of(present()); }
 
-WallMotions Coupling::to_middle(double time_step) {
-  const std::vector<RigidState> states = world_.at_middle(time_, time_step);
-  tank_at_middle_ = states[0].orientation;
-  return motions_of(states);
+WallMotions Coupling::at(double time_step, double fraction) {
+  return motions_of(fraction < 1 ? world_.at_middle(time_, time_step) : world_.at_end(time_, time_step));
 }
 
 WallMotions Coupling::to_end(double time_step, const std::vector<WallWrench>& wrenches) {
+  const Quaterniond tank_at_middle = world_.at_middle(time_, time_step)[0].orientation;
   std::vector<RigidLoad> loads(world_.count());
   for (std::size_t k = 0; k < coupled_.size(); ++k) {
     const WallWrench& wrench = wrenches[k];
-    loads[coupled_[k]] = {tank_at_middle_ * (wrench[0] + wrench[1]), tank_at_middle_ * (wrench[2] + wrench[3])};
+    loads[coupled_[k]] = {tank_at_middle * (wrench[0] + wrench[1]), tank_at_middle * (wrench[2] + wrench[3])};
   }
   for (std::size_t o = 0; o < film_.size(); ++o) {
-    loads[o].force += tank_at_middle_ * film_[o].force;
-    loads[o].torque += tank_at_middle_ * film_[o].torque;
+    loads[o].force += tank_at_middle * film_[o].force;
+    loads[o].torque += tank_at_middle * film_[o].torque;
   }
   world_time_.tick();
   {

@@ -20,7 +20,7 @@ class Coupling final : public WallMover {
   Coupling(RigidWorld& world, const Case& settled_case, const Layout& layout, const Discretisation& discretisation);
 
   std::vector<int> coupled() const override { return coupled_; }
-  WallMotions to_middle(double time_step) override;
+  WallMotions at(double time_step, double fraction) override;
   WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) override;
 
   /// The walls as the world has them now.
@@ -62,7 +62,6 @@ class Coupling final : public WallMover {
   double longest_time_step_;
   double time_ = 0;
   Stopwatch world_time_;
-  Quaterniond tank_at_middle_ = Quaterniond::Identity();
 };
 
 }  // namespace wavetank

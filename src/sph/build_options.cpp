@@ -1,7 +1,6 @@
 #include "build_options.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace wavetank {
 
@@ -15,25 +14,37 @@ bool anything_free(const Case& scene) {
          std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyCase& body) { return body.motion == Motion::free; });
 }
 
-std::string build_options(const Case& scene, const BuildChoice& choice) {
+BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
-  std::ostringstream options;
-  options << "-DDIMENSIONS=" << scene.dimensions << " -DUSE_DOUBLE=" << choice.use_double
-          << " -DDIFFUSION_FOURTAKAS=" << (n.density_diffusion == DensityDiffusion::fourtakas)
-          << " -DDIFFUSION_ANTUONO=" << (n.density_diffusion == DensityDiffusion::antuono)
-          << " -DVISCOSITY_MORRIS=" << (n.viscosity_model == ViscosityModel::morris) << " -DNO_SLIP=" << (n.walls.slip == Slip::no_slip)
-          << " -DCOLE=" << (n.equation_of_state == EquationOfState::cole)
-          << " -DCLAMP_PRESSURE=" << (n.negative_pressure == NegativePressure::clamped)
-          << " -DFACETS=" << (kind_of(n.walls) == WallKind::facets) << " -DTRIANGLES=" << (kind_of(n.walls) == WallKind::triangles)
-          << " -DGHOSTS=" << (n.walls.method == WallMethod::ghost) << " -DIMAGES=" << choice.images
-          << " -DMOVING_WALLS=" << choice.moving_walls << " -DMOVING_FRAME=" << choice.moving_frame << " -DTHIN_WALLS=" << choice.thin_walls
-          << " -DGUARD_IMPULSES=" << anything_free(scene)
-          << " -DSHEPARD_GEOMETRIC=" << (shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic)
-          << " -DSHEPARD_MONOLITHIC=" << (shepard == ShepardFactor::monolithic)
-          << " -DSHEPARD_VOLUMETRIC=" << (shepard == ShepardFactor::volumetric)
-          << " -DRENORMALISE_DIVERGENCE=" << n.walls.renormalise_divergence;
-  return options.str();
+  return {
+      {"DIMENSIONS", scene.dimensions},
+      {"USE_DOUBLE", choice.use_double},
+      {"DIFFUSION_FOURTAKAS", n.density_diffusion == DensityDiffusion::fourtakas},
+      {"DIFFUSION_ANTUONO", n.density_diffusion == DensityDiffusion::antuono},
+      {"VISCOSITY_MORRIS", n.viscosity_model == ViscosityModel::morris},
+      {"NO_SLIP", n.walls.slip == Slip::no_slip},
+      {"COLE", n.equation_of_state == EquationOfState::cole},
+      {"CLAMP_PRESSURE", n.negative_pressure == NegativePressure::clamped},
+      {"FACETS", kind_of(n.walls) == WallKind::facets},
+      {"TRIANGLES", kind_of(n.walls) == WallKind::triangles},
+      {"GHOSTS", n.walls.method == WallMethod::ghost},
+      {"IMAGES", choice.images},
+      {"MOVING_WALLS", choice.moving_walls},
+      {"MOVING_FRAME", choice.moving_frame},
+      {"THIN_WALLS", choice.thin_walls},
+      {"GUARD_IMPULSES", anything_free(scene)},
+      {"SHEPARD_GEOMETRIC", shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic},
+      {"SHEPARD_MONOLITHIC", shepard == ShepardFactor::monolithic},
+      {"SHEPARD_VOLUMETRIC", shepard == ShepardFactor::volumetric},
+      {"RENORMALISE_DIVERGENCE", n.walls.renormalise_divergence},
+  };
+}
+
+std::string text_of(const BuildOptions& options) {
+  std::string text;
+  for (const auto& [name, value] : options) text += (text.empty() ? "-D" : " -D") + name + "=" + std::to_string(value);
+  return text;
 }
 
 }  // namespace wavetank

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "wall_arrays.h"
@@ -21,7 +22,13 @@ struct BuildChoice {
   bool thin_walls = false;
 };
 
-/// The OpenCL build options that all kernels of a solver share.
-std::string build_options(const Case& settled_case, const BuildChoice& choice);
+/// Definitions with which kernels are compiled, by name.
+using BuildOptions = std::map<std::string, int>;
+
+/// Those that all kernels of a solver share.
+BuildOptions build_options(const Case& settled_case, const BuildChoice& choice);
+
+/// As the OpenCL compiler takes them.
+std::string text_of(const BuildOptions& options);
 
 }  // namespace wavetank

@@ -9,6 +9,7 @@ GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, in
     : hits(device, particles),
       takers(device, gives ? field::guard_owners * static_cast<std::size_t>(stride) : 1),
       lost(device, gives ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1),
+      device_(device),
       gives_(gives),
       particles_(particles),
       stride_(stride),
@@ -22,7 +23,7 @@ void GuardImpulses<Real>::gather(const SolverKernels& kernels, const compute::Bu
                                  compute::Buffer<Real>& report) {
   const int count = static_cast<int>(values_.size());
   kernels.guard_chunks.launch(chunks_, particles_, state, stride_, hits, takers, lost, owners_, motions, parts_);
-  kernels.guard_totals.launch(count, count, chunks_, parts_, report);
+  kernels.guard_totals.launch(count, count, sums_.of(device_, kernels.sum_rows, parts_, chunks_, count), report);
   gathered_ = true;
 }
 

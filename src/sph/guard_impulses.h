@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kernel_parameters.h"
+#include "row_sums.h"
 #include "solver_kernels.h"
 #include "wavetank/compute/buffer.h"
 
@@ -31,11 +32,13 @@ class GuardImpulses {
   compute::Buffer<Real> lost;
 
  private:
+  compute::Device device_;
   bool gives_;
   int particles_, stride_, chunks_, owners_;
   std::vector<double> values_;
   bool gathered_ = false;  ///< and not yet read
   compute::Buffer<Real> parts_;
+  RowSums<Real> sums_;
 };
 
 }  // namespace wavetank

@@ -59,6 +59,7 @@ constexpr int guard_owners = 2;
 constexpr int facing_owners = 2;
 constexpr int impulse_count = 6;
 constexpr int watch_count = 2;
+constexpr int sum_count = 8;
 constexpr int energy_count = 7;
 enum Report { report_step, report_speed, report_acceleration, report_alarms = 4, report_impulses = 12 };
 enum Alarm {

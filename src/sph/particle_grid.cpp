@@ -9,7 +9,9 @@ ParticleGrid::ParticleGrid(const compute::Device& device, const compute::SourceF
       blocks_((slots + field::scan_block - 1) / field::scan_block),
       counts_(device, slots),
       starts_(device, slots + 1),
-      block_sums_(device, blocks_),
+      block_sums_(device, blocks_ + 1),
+      group_sums_(device, (blocks_ + field::scan_block - 1) / field::scan_block),
+      block_starts_(device, blocks_ + 1),
       slot_of_(device, particles),
       order_(device, particles) {
   const compute::Program program(device, files, "grid.cl", options);

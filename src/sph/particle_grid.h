@@ -21,7 +21,7 @@ class ParticleGrid {
 
  private:
   int slots_ = 0, particles_ = 0, blocks_ = 0;
-  compute::Buffer<int> counts_, starts_, block_sums_, slot_of_, order_;
+  compute::Buffer<int> counts_, starts_, block_sums_, group_sums_, block_starts_, slot_of_, order_;
   compute::Kernel count_, scan_blocks_, scan_totals_, scan_starts_, scatter_, settle_, reorder_;
 };
 
@@ -30,8 +30,12 @@ void ParticleGrid::sort(const compute::Buffer<char>& parameters, compute::Buffer
                         int stride, compute::Buffer<std::uint32_t>& id, compute::Buffer<std::uint32_t>& spare_id) {
   count_.launch(particles_, parameters, particles_, state, stride, slot_of_, counts_);
   scan_blocks_.launch(blocks_, slots_, counts_, block_sums_);
-  scan_totals_.launch(1, blocks_, block_sums_);
-  scan_starts_.launch(blocks_, slots_, counts_, block_sums_, starts_);
+  // a tree of three levels: of slots, blocks of them, and groups of blocks
+  const int groups = (blocks_ + field::scan_block - 1) / field::scan_block;
+  scan_blocks_.launch(groups, blocks_, block_sums_, group_sums_);
+  scan_totals_.launch(1, groups, group_sums_);
+  scan_starts_.launch(groups, blocks_, block_sums_, group_sums_, block_starts_);
+  scan_starts_.launch(blocks_, slots_, counts_, block_starts_, starts_);
   scatter_.launch(particles_, particles_, slot_of_, starts_, counts_, order_);
   settle_.launch(slots_, slots_, starts_, state, stride, order_);
   reorder_.launch(particles_, particles_, order_, state, spare_state, stride, id, spare_id);

@@ -1,13 +1,31 @@
 #include "wavetank/sph/solver.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
+namespace {
+
+/// A device gives memory in pieces of bounded size, and kernels count the values of a particle array with an int.
+void check_size(const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
+  const std::size_t values = particles * field::state_count;
+  constexpr std::size_t most_values = std::numeric_limits<int>::max();
+  const std::size_t most = std::min(most_values, device.max_allocation / bytes_a_value) / field::state_count;
+  if (values <= most_values && values * bytes_a_value <= device.max_allocation) return;
+  throw Error("the case has " + std::to_string(particles) + " particles, but the device " + device.describe() + " can hold no more than " +
+              std::to_string(most) + " of them: enlarge fluid/spacing, or choose another device.");
+}
+
+}  // namespace
 
 std::unique_ptr<Solver> make_solver(const compute::Device& device, const Case& settled_case, const Layout& layout,
                                     const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
-  if (settled_case.numerics.precision == Precision::single)
+  const bool single = settled_case.numerics.precision == Precision::single;
+  check_size(device.info(), layout.particles.size(), single ? sizeof(float) : sizeof(double));
+  if (single)
     return std::make_unique<SphSolver<float>>(device, settled_case, layout, discretisation, centres);
   if (!device.info().has_double)
     throw Error("numerics/precision is double, but the device " + device.info().describe() +

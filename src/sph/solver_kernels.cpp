@@ -32,17 +32,23 @@ SolverKernels::SolverKernels(const compute::Device& device, const compute::Sourc
   correct = time_step.kernel("correct");
   compress = time_step.kernel("compress");
   move_packed = time_step.kernel("move_packed");
+  go_on_trial = time_step.kernel("go_on_trial");
+  take_sum = time_step.kernel("take_sum");
+  predict_end = time_step.kernel("predict_end");
+  correct_end = time_step.kernel("correct_end");
   const compute::Program reduce(device, files, "reduce.cl", options);
   watch_chunks = reduce.kernel("watch_chunks");
+  watch_groups = reduce.kernel("watch_groups");
   watch_total = reduce.kernel("watch_total");
   guard_chunks = reduce.kernel("guard_chunks");
   guard_totals = reduce.kernel("guard_totals");
   energy_chunks = reduce.kernel("energy_chunks");
-  energy_total = reduce.kernel("energy_total");
+  packing_chunks = reduce.kernel("packing_chunks");
+  sum_rows = reduce.kernel("sum_rows");
+  wrench_chunks = reduce.kernel("wrench_chunks");
   wrench_totals = reduce.kernel("wrench_totals");
   facing_chunks = reduce.kernel("facing_chunks");
   facing_totals = reduce.kernel("facing_totals");
-  packing_total = reduce.kernel("packing_total");
 }
 
 }  // namespace wavetank

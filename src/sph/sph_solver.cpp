@@ -24,6 +24,13 @@ bool all_finite(const std::vector<WallWrench>& wrenches) {
   return true;
 }
 
+/// How far a particle may be from where it was sorted when wrenches are found, m: at half the speed of sound the watchdog ends the run, and
+/// a step is courant h/(c₀ + |u|) at the most.
+double farthest_drift(const Case& scene, const Discretisation& d) {
+  const double step = scene.numerics.courant * d.smoothing_length / 3;
+  return std::max(0.25 * d.spacing, schedule_of(scene.numerics.integrator, nullptr).drift() * step);
+}
+
 /// Whole vectors, and one more: a tile may read beyond the last particle.
 int padded(int count) { return (count + 31) / 16 * 16; }
 
@@ -46,28 +53,32 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       ghosts_(scene.numerics.walls.method == WallMethod::ghost),
       elements_(kind_of(scene.numerics.walls) != WallKind::facets),
       case_walls_(scene, layout, discretisation),
-      tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_ || thinnest_wall().has_value())),
+      tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
       grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
       state_(device, static_cast<std::size_t>(field::state_count) * stride_),
       rates_(device, static_cast<std::size_t>(field::rate_count) * stride_),
       gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
       half_(device, static_cast<std::size_t>(field::state_count) * stride_),
+      sum_(device, scene.numerics.integrator == Integrator::symplectic ? 0 : static_cast<std::size_t>(field::sum_count) * stride_),
       id_(device, count_),
       spare_id_(device, count_),
       images_(tank_images(scene, layout, discretisation)),
       walls_(case_walls_.arrays<Real>(device)),
       loads_(device, elements_ ? walls_.stride : 1),
-      wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty()),
+      wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty(), farthest_drift(scene, discretisation)),
       guarded_(device, anything_free(scene), count_, stride_, centres.size()),
       report_(device, field::report_impulses + guarded_.values().size()),
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
-      energy_total_(device, field::energy_count),
       fillings_(device, stride_),
-      alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count) {
+      group_watches_(device, static_cast<std::size_t>(chunks_of(chunks_)) * field::watch_count),
+      alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
+      group_alarms_(device, static_cast<std::size_t>(chunks_of(chunks_)) * field::alarm_count) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
-  const bool moving = moving_frame_ || owners_move;
+  const WallMotions at_start = motions_at_start();
+  const bool belts = std::any_of(at_start.owners.begin(), at_start.owners.end(), moves);
+  const bool moving = moving_frame_ || owners_move || belts;
   if (ghosts_ && moving)
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
   options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value()});
@@ -75,15 +86,16 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   upload_parameters(values_);
   surroundings_.stride = stride_;
   surroundings_.reach = values_.support;
-  surroundings_.grid = ParticleGrid(device, sources_, options_, grid_shape_.slots(), count_);
+  surroundings_.grid = ParticleGrid(device, sources_, text_of(options_), grid_shape_.slots(), count_);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
-  if (owners_move) moving_walls_.emplace(device, sources_, options_, walls_, moving_, centres_, layout, discretisation_);
+  if (owners_move) moving_walls_.emplace(device, sources_, text_of(options_), walls_, moving_, centres_, layout, discretisation_);
   build_kernels();
-  set_wall_motions(motions_at_start());
+  set_wall_motions(at_start);
   upload_particles(layout);
-  stages_ = symplectic();
+  schedule_ = schedule_of(scene.numerics.integrator, this);
+  schedule_.check();
 }
 
 /// Images bring walls to others far from them.
@@ -134,17 +146,15 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
 
 template <class Real>
 void SphSolver<Real>::build_kernels() {
-  kernels_ = SolverKernels(device_, sources_, options_, tiling_, elements_);
+  kernels_ = SolverKernels(device_, sources_, text_of(options_), tiling_, elements_);
 }
 
 template <class Real>
 void SphSolver<Real>::set_wall_motions(const WallMotions& motions) {
   place_walls(motions);
-  bool moving = false;
-  for (const WallMotion& motion : motions.owners) moving = moving || moves(motion);
-  if (!moving || options_.find("-DMOVING_WALLS=0") == std::string::npos) return;
+  if (options_.at("MOVING_WALLS") != 0 || std::none_of(motions.owners.begin(), motions.owners.end(), moves)) return;
   if (ghosts_) throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
-  options_.replace(options_.find("-DMOVING_WALLS=0"), std::strlen("-DMOVING_WALLS=0"), "-DMOVING_WALLS=1");
+  options_["MOVING_WALLS"] = 1;
   build_kernels();
 }
 
@@ -196,9 +206,9 @@ void SphSolver<Real>::sort() {
 }
 
 template <class Real>
-void SphSolver<Real>::widen_reach() {
+void SphSolver<Real>::widen_reach(double part, double speed) {
   constexpr double for_rounding = 1.0 + 1e-5;
-  surroundings_.reach = static_cast<Real>((discretisation_.support + 0.5 * step_ * greatest_speed_) * for_rounding);
+  surroundings_.reach = static_cast<Real>((discretisation_.support + part * step_ * speed) * for_rounding);
 }
 
 template <class Real>
@@ -208,14 +218,54 @@ void SphSolver<Real>::load_walls(const Buffer& state) {
 }
 
 template <class Real>
-void SphSolver<Real>::find_compression_rates() {
-  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) sweep(kernels_.gradient, count_, state_, walls_, gradient_);
-  sweep(kernels_.continuity, count_, state_, walls_, gradient_, rates_);
+void SphSolver<Real>::compress_at(const Buffer& state) {
+  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) sweep(kernels_.gradient, count_, state, walls_, gradient_);
+  sweep(kernels_.continuity, count_, state, walls_, gradient_, rates_);
 }
 
 template <class Real>
-void SphSolver<Real>::find_accelerations(const Buffer& state) {
+void SphSolver<Real>::accelerate(const Buffer& state) {
+  load_walls(state);
   sweep(kernels_.momentum, count_, state, walls_, loads_, surroundings_.film.on_device(), rates_);
+}
+
+template <class Real>
+std::vector<WallWrench> SphSolver<Real>::wrenches_at(const Buffer& state, const std::vector<int>& owners) {
+  return wrenches_.find(kernels_, surroundings_, state, walls_, loads_, owners);
+}
+
+// ---------------------------------------------------------------- what integrators are made of
+
+template <class Real>
+void SphSolver<Real>::walls_at(double fraction) {
+  if (mover_ != nullptr) place_walls(mover_->at(step_, fraction));
+}
+
+template <class Real>
+void SphSolver<Real>::add_wrenches(Slot state, double weight) {
+  if (mover_ == nullptr) return;
+  const std::vector<WallWrench> wrenches = wrenches_at(buffer_of(state), mover_->coupled());
+  const bool first = step_wrenches_.empty();
+  step_wrenches_.resize(wrenches.size());
+  for (std::size_t k = 0; k < wrenches.size(); ++k)
+    for (std::size_t part = 0; part < wrenches[k].size(); ++part) {
+      const Eigen::Vector3d share = weight * wrenches[k][part];
+      step_wrenches_[k][part] = first ? share : Eigen::Vector3d(step_wrenches_[k][part] + share);
+    }
+}
+
+/// With what the guard took at the end of the last step.
+template <class Real>
+void SphSolver<Real>::walls_to_end() {
+  if (mover_ == nullptr) return;
+  const std::vector<int> owners = mover_->coupled();
+  for (std::size_t k = 0; guarded_.gives() && k < owners.size(); ++k) {
+    const double* impulse = &guarded_.values()[owners[k] * field::impulse_count];
+    step_wrenches_[k][0] += Eigen::Vector3d(impulse) / step_;
+    step_wrenches_[k][2] += Eigen::Vector3d(impulse + 3) / step_;
+  }
+  load_lost_ = !all_finite(step_wrenches_);
+  if (!load_lost_) place_walls(mover_->to_end(step_, step_wrenches_));
 }
 
 template <class Real>
@@ -225,59 +275,53 @@ void SphSolver<Real>::guard() {
 }
 
 template <class Real>
-std::vector<WallWrench> SphSolver<Real>::wrenches_at(const Buffer& state, const std::vector<int>& owners) {
-  return wrenches_.find(kernels_, surroundings_, state, walls_, loads_, owners);
+void SphSolver<Real>::drift_to_middle() {
+  kernels_.predict.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_);
+  widen_reach(0.5, greatest_speed_);
 }
 
 template <class Real>
-std::vector<WallWrench> SphSolver<Real>::wrenches_in_step() {
-  const std::vector<int> owners = mover_->coupled();
-  std::vector<WallWrench> wrenches = wrenches_at(half_, owners);
-  for (std::size_t k = 0; guarded_.gives() && k < owners.size(); ++k) {
-    const double* impulse = &guarded_.values()[owners[k] * field::impulse_count];
-    wrenches[k][0] += Eigen::Vector3d(impulse) / step_;
-    wrenches[k][2] += Eigen::Vector3d(impulse + 3) / step_;
-  }
-  return wrenches;
+void SphSolver<Real>::kick_and_drift_to_end() {
+  kernels_.correct.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_);
 }
 
 template <class Real>
-std::vector<Stage> SphSolver<Real>::symplectic() {
-  return {
-      {"drift to the middle",
-       [this] {
-         kernels_.predict.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_);
-         widen_reach();
-       }},
-      {"walls to the middle",
-       [this] {
-         if (mover_ != nullptr) place_walls(mover_->to_middle(step_));
-       }},
-      {"wall pressures", [this] { load_walls(half_); }},
-      {"accelerations", [this] { find_accelerations(half_); }},
-      {"walls to the end",
-       [this] {
-         if (mover_ == nullptr) return;
-         const std::vector<WallWrench> wrenches = wrenches_in_step();
-         load_lost_ = !all_finite(wrenches);
-         if (!load_lost_) place_walls(mover_->to_end(step_, wrenches));
-       }},
-      {"kick, and drift to the end",
-       [this] { kernels_.correct.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_); }},
-      {"guard", [this] { guard(); }},
-      {"neighbour grid", [this] { sort(); }},
-      {"compression rates", [this] { find_compression_rates(); }},
-      {"compressions to the end",
-       [this] { kernels_.compress.launch(count_, surroundings_.parameters, count_, state_, stride_, rates_, report_); }},
-  };
+void SphSolver<Real>::compress_to_end() {
+  kernels_.compress.launch(count_, surroundings_.parameters, count_, state_, stride_, rates_, report_);
 }
+
+template <class Real>
+void SphSolver<Real>::go_on_trial(Slot, bool first, double weight, double part) {
+  kernels_.go_on_trial.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_, first ? 1 : 0,
+                              static_cast<Real>(weight), static_cast<Real>(part));
+  widen_reach(part, speed_in_step());
+}
+
+template <class Real>
+void SphSolver<Real>::take_sum(double weight) {
+  kernels_.take_sum.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_, static_cast<Real>(weight));
+}
+
+template <class Real>
+void SphSolver<Real>::predict_end() {
+  kernels_.predict_end.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_);
+  widen_reach(1.0, speed_in_step());
+}
+
+template <class Real>
+void SphSolver<Real>::correct_end() {
+  kernels_.correct_end.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_);
+}
+
+// ---------------------------------------------------------------- a step
 
 template <class Real>
 StepReport SphSolver<Real>::advance(WallMover* mover) {
   mover_ = mover;
+  step_wrenches_.clear();
   load_lost_ = false;
   try {
-    for (const Stage& stage : stages_) stage.run();
+    schedule_.run();
   } catch (...) {
     mover_ = nullptr;
     throw;
@@ -300,7 +344,9 @@ template <class Real>
 StepReport SphSolver<Real>::watch() {
   const double longest = std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_);
   kernels_.watch_chunks.launch(chunks_, surroundings_.parameters, count_, state_, rates_, stride_, guarded_.hits, watches_, alarms_);
-  kernels_.watch_total.launch(1, surroundings_.parameters, chunks_, watches_, alarms_, static_cast<Real>(longest), report_);
+  const int groups = chunks_of(chunks_);
+  kernels_.watch_groups.launch(groups, chunks_, watches_, alarms_, group_watches_, group_alarms_);
+  kernels_.watch_total.launch(1, surroundings_.parameters, groups, group_watches_, group_alarms_, static_cast<Real>(longest), report_);
   const std::vector<Real> values = report_.download();
   guarded_.read(values);
   int alarm[field::alarm_count];
@@ -308,7 +354,7 @@ StepReport SphSolver<Real>::watch() {
   StepReport report;
   report.time_step = step_ = values[field::report_step];
   report.greatest_speed = greatest_speed_ = values[field::report_speed];
-  report.greatest_acceleration = values[field::report_acceleration];
+  report.greatest_acceleration = greatest_acceleration_ = values[field::report_acceleration];
   report.not_finite = alarm[field::alarm_not_finite];
   report.outside = alarm[field::alarm_outside];
   report.too_fast = alarm[field::alarm_fast];

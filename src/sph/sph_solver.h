@@ -2,10 +2,13 @@
 
 #include <limits>
 
+#include "build_options.h"
 #include "case_walls.h"
 #include "guard_impulses.h"
+#include "integrators/integrator.h"
 #include "kernel_parameters.h"
 #include "moving_walls.h"
+#include "row_sums.h"
 #include "solver_kernels.h"
 #include "surroundings.h"
 #include "tank_images.h"
@@ -14,16 +17,10 @@
 
 namespace wavetank {
 
-/// One stage of a time step; a scheme is a list of them, so that it can be read on one page.
-struct Stage {
-  const char* name;
-  std::function<void()> run;
-};
-
 /// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_readings.cpp and
 /// sph_solver_snapshot.cpp.
 template <class Real>
-class SphSolver final : public Solver {
+class SphSolver final : public Solver, private StepEngine {
  public:
   SphSolver(const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
             const std::vector<Eigen::Vector3d>& centres);
@@ -72,19 +69,32 @@ class SphSolver final : public Solver {
   StepReport start_at_rest();
   WallArrays<Real> make_supported_walls() const;
 
-  std::vector<Stage> symplectic();
-  void sort();
-  /// For what a particle may move in half a step.
-  void widen_reach();
+  void walls_at(double fraction) override;
+  void find_accelerations(Slot state) override { accelerate(buffer_of(state)); }
+  void find_compression_rates(Slot state) override { compress_at(buffer_of(state)); }
+  void add_wrenches(Slot state, double weight) override;
+  void walls_to_end() override;
+  void guard() override;
+  void sort() override;
+  void drift_to_middle() override;
+  void kick_and_drift_to_end() override;
+  void compress_to_end() override;
+  void go_on_trial(Slot state, bool first, double weight, double part) override;
+  void take_sum(double weight) override;
+  void predict_end() override;
+  void correct_end() override;
+  const Buffer& buffer_of(Slot state) const { return state == Slot::now ? state_ : half_; }
+  /// For what a particle may move in a part of the step, at `speed`, m/s.
+  void widen_reach(double part, double speed);
+  /// Of any particle in this step, as far as the last one tells, m/s.
+  double speed_in_step() const { return greatest_speed_ + 2 * step_ * greatest_acceleration_; }
   void place_walls(const WallMotions& motions);
   void place_barriers();
   void load_walls(const Buffer& state);
-  void find_accelerations(const Buffer& state);
-  void find_compression_rates();
-  void guard();
+  /// Accelerations and compression rates into the rates.
+  void accelerate(const Buffer& state);
+  void compress_at(const Buffer& state);
   std::vector<WallWrench> wrenches_at(const Buffer& state, const std::vector<int>& owners);
-  /// On the coupled owners in the middle of the step, with what the guard took at the end of the last one.
-  std::vector<WallWrench> wrenches_in_step();
   StepReport watch();
   void describe_offender(StepReport& report, int first) const;
 
@@ -94,7 +104,7 @@ class SphSolver final : public Solver {
   int count_ = 0;
   int stride_ = 0;
   int chunks_ = 0;
-  std::string options_;
+  BuildOptions options_;
   compute::SourceFiles sources_;
   KernelParameters<Real> values_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners, as the layout has them
@@ -110,12 +120,15 @@ class SphSolver final : public Solver {
   double time_step_limit_ = std::numeric_limits<double>::infinity();
   double step_ = 0;             ///< the next step, or the one in progress, s
   double greatest_speed_ = 0;   ///< of a particle at the end of the last step, m/s
+  double greatest_acceleration_ = 0;  ///< likewise, m/s²
+  std::vector<WallWrench> step_wrenches_;  ///< on the coupled owners, as far as they were added up
   bool load_lost_ = false;      ///< in this step, to values that are not finite
   double fastest_wall_ = 0;     ///< of any point of a body, m/s
   Eigen::Vector3d up_;          ///< along which the start is hydrostatic
   std::vector<double> levels_;  ///< by particle id, for that: heights along `up_`
   Buffer state_, rates_, gradient_;
-  Buffer half_;  ///< the middle of the step; then what the state is sorted into
+  Buffer half_;  ///< the trial state of the step, its middle or end; then what the state is sorted into
+  Buffer sum_;   ///< of weighted rates, for integrators that have one
   compute::Buffer<std::uint32_t> id_, spare_id_;
   std::vector<TankImage> images_;
   Surroundings<Real> surroundings_;
@@ -125,10 +138,12 @@ class SphSolver final : public Solver {
   Buffer loads_;
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
-  Buffer report_, watches_, energy_parts_, energy_total_, fillings_;
-  compute::Buffer<int> alarms_;
+  Buffer report_, watches_, energy_parts_, fillings_;
+  Buffer group_watches_;
+  compute::Buffer<int> alarms_, group_alarms_;
+  RowSums<Real> sums_;
   SolverKernels kernels_;
-  std::vector<Stage> stages_;
+  Schedule schedule_;
 };
 
 }  // namespace wavetank

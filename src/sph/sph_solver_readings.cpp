@@ -51,8 +51,8 @@ std::vector<WallWrench> SphSolver<Real>::wrenches() {
 template <class Real>
 FluidEnergies SphSolver<Real>::energies() {
   kernels_.energy_chunks.launch(chunks_, surroundings_.parameters, count_, state_, stride_, energy_parts_);
-  kernels_.energy_total.launch(1, chunks_, energy_parts_, energy_total_);
-  const std::vector<Real> total = energy_total_.download();
+  const std::vector<Real> total =
+      sums_.of(device_, kernels_.sum_rows, energy_parts_, chunks_, field::energy_count).download(field::energy_count);
   FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
@@ -109,7 +109,7 @@ FluidState SphSolver<Real>::download() {
 /// Built when it is asked for: no simulation needs it.
 template <class Real>
 PairCount SphSolver<Real>::count_pairs() {
-  const SweepKernel kernel{compute::Program(device_, sources_, "pairs.cl", options_ + tiling_.particles.build_options()).kernel("pairs"),
+  const SweepKernel kernel{compute::Program(device_, sources_, "pairs.cl", text_of(options_) + tiling_.particles.build_options()).kernel("pairs"),
                            tiling_.particles.own};
   compute::Buffer<int> counts(device_, 2 * static_cast<std::size_t>(count_));
   sweep(kernel, count_, state_, walls_, counts);

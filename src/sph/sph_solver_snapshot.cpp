@@ -58,6 +58,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   report_.upload(step);
   step_ = step[field::report_step];
   greatest_speed_ = step[field::report_speed];
+  greatest_acceleration_ = step[field::report_acceleration];
   id_.upload(id);
   sort();  // already sorted, so this changes nothing but finds the cells
 }

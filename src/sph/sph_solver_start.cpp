@@ -38,9 +38,8 @@ StepReport SphSolver<Real>::start_at_rest() {
     std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0));
   state_.upload(state);
   kernels_.derive.launch(count_, surroundings_.parameters, count_, state_, stride_);
-  load_walls(state_);
-  find_accelerations(state_);
-  find_compression_rates();
+  accelerate(state_);
+  compress_at(state_);
   guarded_.clear();
   return watch();
 }
@@ -111,13 +110,13 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
       case_walls_.arrays_at_start<Real>(device_, !ghosts_, case_walls_.lid());  // the ghosts themselves are the walls
   const WallArrays<Real> of_guard = ghosts_ ? case_walls_.arrays_at_start<Real>(device_, true, case_walls_.lid()) : WallArrays<Real>();
   const WallArrays<Real>& guarded = ghosts_ ? of_guard : closed;
-  Buffer total(device_, 2);
+  Buffer squares(device_, chunks_);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
     sweep(kernels_.packing, count_, state_, closed, surroundings_.film.on_device(), rates_);
     if (k % report_interval == 0 || k == iterations) {
-      kernels_.packing_total.launch(1, count_, rates_, stride_, total);
-      report.last_error = total.download()[0];
+      kernels_.packing_chunks.launch(chunks_, count_, rates_, stride_, squares);
+      report.last_error = std::sqrt(sums_.of(device_, kernels_.sum_rows, squares, chunks_, 1).download(1)[0] / static_cast<Real>(count_));
       if (k == 0) report.first_error = report.last_error;
       if (progress) progress(iterations == 0 ? 1.0 : static_cast<double>(k) / iterations);
     }

@@ -23,7 +23,7 @@ struct Tiling {
   int slots_per_support = 1;  ///< and along x
 };
 
-/// `scalar`: the case has neighbours that need a look each (ghosts, thin walls).
+/// `scalar`: every neighbour needs a look by itself (ghosts).
 Tiling tiling_for(const compute::DeviceInfo& device, Precision precision, bool scalar);
 
 }  // namespace wavetank

@@ -23,12 +23,14 @@ Box moved(const Box& box, const WallPose& pose) {
 
 template <class Real>
 WallWrenches<Real>::WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid,
-                                 const std::vector<Box>& boxes, const std::vector<WallElement>& pieces, bool everywhere)
+                                 const std::vector<Box>& boxes, const std::vector<WallElement>& pieces, bool everywhere,
+                                 double drift)
     : device_(device),
       discretisation_(discretisation),
       grid_(grid),
       boxes_(boxes),
       everywhere_(everywhere),
+      drift_(drift),
       facing_(device, pieces, discretisation),
       totals_(device, boxes.size() * field::wrench_count) {}
 
@@ -45,8 +47,9 @@ template <class Real>
 void WallWrenches<Real>::find_regions(const std::vector<int>& owners) {
   std::vector<int> values;
   region_items_ = 0;
+  int most = 0;
   const Discretisation& d = discretisation_;
-  const double margin = d.support + 0.25 * d.spacing;  // particles have moved by less since they were sorted
+  const double margin = d.support + drift_;
   for (const int owner : owners) {
     int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     const Box now = moved(boxes_[owner], poses_[owner]);
@@ -62,11 +65,16 @@ void WallWrenches<Real>::find_regions(const std::vector<int>& owners) {
     }
     const int runs = (high[0] - low[0]) / field::region_run + 1, rows = high[1] - low[1] + 1;
     for (const int value : {owner, region_items_, low[0], low[1], low[2], high[0] + 1, runs, rows}) values.push_back(value);
-    region_items_ += runs * rows * (high[2] - low[2] + 1);
+    const int items = runs * rows * (high[2] - low[2] + 1);
+    region_items_ += items;
+    most = std::max(most, items);
   }
   regions_.set(device_, values);
   const std::size_t parts = static_cast<std::size_t>(region_items_) * field::wrench_count;
   if (parts_.size() < parts) parts_ = compute::Buffer<Real>(device_, 2 * parts);
+  chunks_ = chunks_of(most);
+  const std::size_t sums = owners.size() * chunks_ * field::wrench_count;
+  if (sums_.size() < sums) sums_ = compute::Buffer<Real>(device_, sums);
   region_owners_ = owners;
 }
 
@@ -79,7 +87,9 @@ std::vector<WallWrench> WallWrenches<Real>::find(const SolverKernels& kernels, c
   const int regions = static_cast<int>(owners.size());
   surroundings.sweep(kernels.wall_forces, region_items_, state, walls, loads, surroundings.film.on_device(), regions, regions_.on_device(),
                      parts_);
-  kernels.wrench_totals.launch(regions, regions, region_items_, regions_.on_device(), parts_, totals_);
+  const int sums = regions * chunks_;
+  kernels.wrench_chunks.launch(sums, sums, chunks_, regions, region_items_, regions_.on_device(), parts_, sums_);
+  kernels.wrench_totals.launch(regions, regions, chunks_, sums_, totals_);
   facing_.add(kernels, surroundings, state, walls, regions, regions_.on_device(), totals_);
   const std::vector<Real> totals = totals_.download(owners.size() * field::wrench_count);
   std::vector<WallWrench> result(owners.size());

@@ -12,9 +12,9 @@ template <class Real>
 class WallWrenches {
  public:
   /// `boxes`: about each owner's walls at rest; `pieces`: those walls, each about a spacing wide; `everywhere`: images bring an owner's
-  /// walls to particles far from it.
+  /// walls to particles far from it; `drift`: how far particles may be from where they were sorted, m.
   WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid, const std::vector<Box>& boxes,
-               const std::vector<WallElement>& pieces, bool everywhere);
+               const std::vector<WallElement>& pieces, bool everywhere, double drift);
 
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
@@ -30,12 +30,14 @@ class WallWrenches {
   GridShape grid_;
   std::vector<Box> boxes_;
   bool everywhere_ = false;
+  double drift_ = 0;
   FacingWalls<Real> facing_;
   std::vector<WallPose> poses_;
-  compute::Buffer<Real> parts_, totals_;
+  compute::Buffer<Real> parts_, sums_, totals_;
   KeptBuffer<int> regions_;
   std::vector<int> region_owners_;  ///< that the regions were found for, at the present poses; empty: for none
   int region_items_ = 0;
+  int chunks_ = 0;  ///< of items, of the largest region
 };
 
 }  // namespace wavetank

@@ -3,8 +3,8 @@
 namespace wavetank::compute {
 namespace {
 
-// A program of its own, since the loader reads this variable once a process.
-TEST(ChooseDevice, SaysWhenThereIsNone) {
+// In a process of its own, since the loader reads this variable once a process.
+TEST(ChooseDeviceOfNone, SaysWhenThereIsNone) {
   const ScratchDirectory empty;
   setenv("OCL_ICD_VENDORS", empty.path().c_str(), 1);
   setenv("OPENCL_VENDOR_PATH", empty.path().c_str(), 1);

@@ -58,7 +58,7 @@ class Carried final : public wavetank::WallMover {
   explicit Carried(int dimensions) : across_(dimensions == 3 ? 1 : 0) {}
 
   std::vector<int> coupled() const override { return {0, 1}; }
-  wavetank::WallMotions to_middle(double) override { return motions(); }
+  wavetank::WallMotions at(double, double) override { return motions(); }
   wavetank::WallMotions to_end(double, const std::vector<wavetank::WallWrench>&) override {
     ++step_;
     return motions();

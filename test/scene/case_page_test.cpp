@@ -18,7 +18,7 @@ TEST(CasePage, IsWhatTheKeysSay) {
   ASSERT_TRUE(file) << path;
   std::ostringstream page;
   page << file.rdbuf();
-  EXPECT_EQ(page.str(), describe_case_keys()) << "run scene_case_page_test with WAVETANK_WRITE_DOCS=1 to write docs/case.md anew";
+  EXPECT_EQ(page.str(), describe_case_keys()) << "run scene_test with WAVETANK_WRITE_DOCS=1 to write docs/case.md anew";
 }
 
 TEST(CasePage, DefaultsAreThoseOfTheStructs) {

@@ -375,7 +375,7 @@ class Pusher final : public WallMover {
  public:
   explicit Pusher(const Vector3d& velocity) { motions_.owners.resize(2), motions_.owners[1].velocity = velocity; }
   std::vector<int> coupled() const override { return {}; }
-  WallMotions to_middle(double time_step) override { return moved(0.5 * time_step); }
+  WallMotions at(double time_step, double fraction) override { return moved(fraction * time_step); }
   WallMotions to_end(double time_step, const std::vector<WallWrench>&) override { return moved(0.5 * time_step); }
   const WallMotions& motions() const { return motions_; }
 

@@ -165,7 +165,7 @@ class Carrier final : public WallMover {
  public:
   explicit Carrier(const WallMotion& motion) : motion_(motion) {}
   std::vector<int> coupled() const override { return {0, 1}; }
-  WallMotions to_middle(double time_step) override { return moved(0.5 * time_step); }
+  WallMotions at(double time_step, double fraction) override { return moved(fraction * time_step); }
   WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) override {
     force = wrenches[0][0] + wrenches[0][1] + wrenches[1][0] + wrenches[1][1];
     on_body = (wrenches[1][0] + wrenches[1][1]).norm();

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "wavetank/node/bag_writer.h"
 #include "wavetank/node/messages.h"
 #include "wavetank/node/progress.h"
 #include "wavetank/node/run_options.h"
+#include "wavetank/node/run_recorder.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
@@ -31,11 +31,9 @@ class BagRun {
   void start();
   void step_to_the_end();
   void write_samples();
-  void write_first_messages();
-  void write_status(const EnergySample& energies);
-  void write_clouds();
   void finish();
   void finish_bag();
+  RunState run_state(std::uint8_t phase) const;
   std::string failure_snapshot() const;
   void save_violation();
   void save_what_is_left();
@@ -48,16 +46,14 @@ class BagRun {
   const RunOptions& options_;
   const std::atomic<int>& interrupted_;
   Case case_;
-  std::unique_ptr<BagWriter> bag_;
+  StampClock clock_;
+  std::unique_ptr<RunRecorder> recorder_;
   Progress progress_;
   std::unique_ptr<Simulation> simulation_;
-  std::vector<BodyFrame> frames_;
   std::unique_ptr<SampleMessages> messages_;
-  StampClock clock_;
   std::string device_;
   SolverState first_, last_;
   EnergySample energies_;
-  double next_status_ = 0, next_cloud_ = 0;  ///< s of simulated time
   Clock::time_point began_;
   double seconds_ = 0;  ///< of wall time, stepping
   std::string violation_;

@@ -10,7 +10,7 @@ namespace wavetank {
 
 /// What wavetank_run was asked for.
 struct RunOptions {
-  enum class Action { run, check, list_devices, nothing };
+  enum class Action { run, check, schedule, list_devices, nothing };
   Action action = Action::run;
   std::string case_file;
   std::vector<Override> overrides;  ///< of --set, --duration and --device, in this order

@@ -11,12 +11,12 @@
 #include <memory>
 #include <string>
 
-#include "wavetank/node/bag_writer.h"
 #include "wavetank/node/body_inputs.h"
 #include "wavetank/node/clock_note.h"
 #include "wavetank/node/cloud_publisher.h"
 #include "wavetank/node/messages.h"
 #include "wavetank/node/parameters.h"
+#include "wavetank/node/run_recorder.h"
 #include "wavetank/node/solver_loop.h"
 #include "wavetank/node/transform_publisher.h"
 
@@ -55,13 +55,12 @@ class TankNode {
   void publish_clock(double time);
   void follow_earlier_clock();
   void note_clock(const LoopStatus& status);
-  void write_cloud(const Simulation& simulation, double time);
   bool everything_is_heard();
   std::string snapshot_path(const std::string& what) const;
   void every_second();
   void measure_rates(const LoopStatus& status);
   void fill_diagnostics(diagnostic_updater::DiagnosticStatusWrapper& report);
-  SolverStatus make_status(const LoopStatus& status) const;
+  RunState run_state(const LoopStatus& status) const;
   void decide_about_exit(const LoopStatus& status);
 
   ros::NodeHandle handle_, private_;
@@ -76,9 +75,7 @@ class TankNode {
   BodyInputs inputs_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<ClockNote> clock_note_;  ///< where /clock is published
-  std::unique_ptr<BagWriter> bag_;
-  double next_bag_cloud_ = 0;   ///< s of simulated time
-  double next_bag_status_ = 0;  ///< likewise
+  std::unique_ptr<RunRecorder> recorder_;
   Clock::time_point clock_due_;
   Clock::time_point subscribers_due_;  ///< when the first step is taken at the latest
   bool all_heard_ = false;

@@ -220,7 +220,7 @@ enum class ShepardFactor { none, volumetric, monolithic, geometric };
 enum class WallElements { numerical, semi_analytical, facet };
 enum class Slip { no_slip, free_slip };
 enum class Shifting { none };
-enum class Integrator { symplectic };
+enum class Integrator { symplectic, predictor_corrector, runge_kutta_4 };
 enum class Precision { single, double_ };
 /// What the fluid does where its pressure would fall below that of the air, which is not simulated.
 enum class NegativePressure { allowed, clamped };

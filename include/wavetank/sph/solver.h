@@ -115,9 +115,9 @@ class WallMover {
   virtual ~WallMover() = default;
   /// Owners whose wrenches to_end wants.
   virtual std::vector<int> coupled() const = 0;
-  /// Halfway through a step of `time_step`, s.
-  virtual WallMotions to_middle(double time_step) = 0;
-  /// At its end; `wrenches` (one a coupled owner, in their order): of the fluid in the middle, in the tank's axes, from the very sums that
+  /// Where they are expected after a fraction of a step of `time_step`, s: 0.5, or 1.
+  virtual WallMotions at(double time_step, double fraction) = 0;
+  /// At its end; `wrenches` (one a coupled owner, in their order): of the fluid over the step, in the tank's axes, from the very sums that
   /// act on the fluid.
   virtual WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) = 0;
 };

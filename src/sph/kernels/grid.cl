@@ -11,7 +11,7 @@ __kernel void count_slots(__constant const parameters_t* p, int count, __global 
   atomic_inc(&counts[slot]);
 }
 
-// Exclusive prefix sum in three launches: sums of blocks, their running totals, the values of each block.
+// Exclusive prefix sum: sums of blocks, and of groups of blocks in the same way; the groups' running totals; the values of each group, and of each block.
 #define SCAN_BLOCK 256
 
 __kernel void scan_blocks(int count, __global const int* values, __global int* block_sums) {

@@ -144,8 +144,13 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
 #endif
   const bool above_rim = p->top_way * state[(FIELD_X + p->top_axis) * stride + i] > p->rim;
   if (above_rim) hits[i] = hold_over_tank(p, state, stride, i) ? 1 : 0;
-  // a step moves a particle by much less than a quarter of the spacing: who was further away than this cannot have come near
-  const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing;
+  // who was further away than it has moved since cannot have come near, but for what walls move in a step (Δx/5 at the most)
+  real moved = R(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const real way = state[(FIELD_X + axis) * stride + i] - half_state[(FIELD_X + axis) * stride + i];
+    moved += way * way;
+  }
+  const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing + sqrt(moved);
   if (!near && !above_rim) return;
   wall_sweep_t a = {0};
   const walls_t walls = WALLS_OF_ARGUMENTS;

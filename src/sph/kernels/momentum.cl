@@ -34,7 +34,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     add_repulsion(&b, p, images);
 #else
     add_film(&b, p, film, images);
-    LOOK_THROUGH(walls, a.near, b.x, b.y, b.z);
+    LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
 #endif
     const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);

@@ -25,8 +25,7 @@ typedef struct {
 #endif
   tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
 #if WALL_FORCES && THIN_WALLS
-  int owner;                          // of walls
-  tile across_x, across_y, across_z;  // of that the part of neighbours that the owner's thin walls hide: it goes through them, who have it
+  tile across_x, across_y, across_z;  // of that the part of neighbours that the watched owner's thin walls hide: it goes through them, who have it
 #endif
 #if WALL_FORCES || VISCOSITY_MORRIS
   tile viscous_x, viscous_y, viscous_z;
@@ -116,11 +115,10 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->force_y += central * ry;
 #endif
 #if WALL_FORCES && THIN_WALLS
-  if (a->near.hidden_by == a->owner) {
-    a->across_x += central * rx;
-    a->across_y += central * ry;
-    a->across_z += central * rz;
-  }
+  const tile across = a->near.through * central;
+  a->across_x += across * rx;
+  a->across_y += across * ry;
+  a->across_z += across * rz;
 #endif
 }
 
@@ -245,7 +243,7 @@ INLINE void add_repulsion(wall_sweep_t* a, __constant const parameters_t* p, __g
 #if NEEDS_FIT
 // Whether (x, y, z) may be within the support of a wall.
 INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
-#if FACETS && !IMAGES && !THIN_WALLS
+#if FACETS && !IMAGES
   const int cell = cell_index(p, x, y, z);
   bool near = false;
   for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {

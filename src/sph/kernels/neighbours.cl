@@ -59,9 +59,11 @@ typedef struct {
   places_t places;
   const walls_t* walls;
 #if THIN_WALLS
-  real transparency;  // with which neighbours count that a thin wall hides
-  int hidden_by;      // whose thin wall hides the neighbour that is added now; NO_OWNER if none does
-  real beyond;        // Σ W V of all that are beyond thin walls, in sight or not
+  int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is
+  real transparency[TILE_OWN];   // with which neighbours count that a thin wall hides
+  real beyond[TILE_OWN];         // Σ W V of all that are beyond thin walls, in sight or not
+  tile seen;                     // how much the neighbours that are added now count: 1 in sight
+  tile through;                  // 1: it is the watched owner's walls that hide them
 #endif
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
@@ -92,9 +94,10 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
   n->own = TILE_OWN;
   n->walls = walls;
 #if THIN_WALLS
-  n->transparency = R(0.0);
-  n->hidden_by = NO_OWNER;
-  n->beyond = R(0.0);
+  n->watched = NO_OWNER;
+  for (int k = 0; k < TILE_OWN; ++k) n->transparency[k] = n->beyond[k] = R(0.0);
+  n->seen = (tile)(R(1.0));
+  n->through = (tile)(R(0.0));
 #endif
 #if GHOSTS
   n->mirrored = false;
@@ -127,7 +130,7 @@ INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_va
 // Their volumes, as far as they count.
 INLINE tile near_volume(const neighbours_t* n, int j) {
 #if THIN_WALLS
-  return n->hidden_by != NO_OWNER ? n->transparency * near_field(n, FIELD_VOLUME, j) : near_field(n, FIELD_VOLUME, j);
+  return n->seen * near_field(n, FIELD_VOLUME, j);
 #else
   return near_field(n, FIELD_VOLUME, j);
 #endif
@@ -218,20 +221,21 @@ INLINE real crossing(__global const real* b, real x, real y, real z, real rx, re
 }
 
 // Whose thin wall of the cell the way from (x, y, z) along (rx, ry, rz) goes through: in by one side and out by the other. What only cuts a corner of a
-// solid is not hidden by it; nor does any solid hide its corners. Of two owners the later, which it also is on the way back.
+// solid is not hidden by it; nor does any solid hide its corners. Of several owners the last, which it also is on the way back.
 INLINE int hidden_in_cell(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z, real rx, real ry, real rz) {
   const int cell = cell_index(p, x, y, z);
   const int first = walls->barrier_start[cell], end = walls->barrier_start[cell + 1];
+  real by = R(-1.0);  // NO_OWNER
   for (int k = first; k < end; ++k) {
     __global const real* in = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
     if (crossing(in, x, y, z, rx, ry, rz, R(1.0)) > R(1.0)) continue;
     for (int l = first; l < end; ++l) {
       __global const real* out = walls->barriers + BARRIER_COUNT * walls->barrier_list[l];
       if (in[0] * out[0] + in[1] * out[1] + in[2] * out[2] < R(-0.5) && crossing(out, x, y, z, rx, ry, rz, R(-1.0)) <= R(1.0))
-        return (int)fmax(in[BARRIER_OWNER], out[BARRIER_OWNER]);
+        by = fmax(by, fmax(in[BARRIER_OWNER], out[BARRIER_OWNER]));
     }
   }
-  return NO_OWNER;
+  return (int)by;
 }
 
 // Whether that way comes out of any thin wall of the cell.

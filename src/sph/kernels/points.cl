@@ -77,7 +77,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   neighbours_at(&a.near, state, stride, reach, &walls, x, y, z);
   a.gravity = gravity_at(p, &walls, x, y, z, make_vector(R(0.0), R(0.0), R(0.0)));
   sweep_particles(&a, p, slot_start, images);
-  LOOK_THROUGH(walls, a.near, x, y, z);
+  LOOK_THROUGH(walls, a.near, 0);
   const real shepard = find_shepard(p, &walls, images, x, y, z);
   real weight, pressure;
   own_sums(a.weight, &weight);
@@ -104,7 +104,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, R(1.0), false, R(0.0), R(0.0), R(0.0)};
 #if !GHOSTS
-    LOOK_THROUGH(walls, a.near, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+    LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
     // a flat surface's first row has 0.75 of a full kernel, its second more than 0.95

@@ -1,5 +1,5 @@
-// Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, then the chunks' results by one. Built without
-// fast-math, and non-finite values are found by their bits all the same.
+// Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, as many chunks of those while there are more than that, and
+// the last ones' results by one. Built without fast-math, and non-finite values are found by their bits all the same.
 #include "common.cl"
 
 #define REDUCE_CHUNK 256
@@ -76,6 +76,26 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
   alarms[chunk * ALARM_COUNT + ALARM_FIRST_INFECTED] = first_infected;
 }
 
+// Chunks of what chunks have found.
+__kernel void watch_groups(int chunks, __global const real* watches, __global const int* alarms, __global real* group_watches, __global int* group_alarms) {
+  const int group = get_global_id(0);
+  if (group * REDUCE_CHUNK >= chunks) return;
+  __global const real* watch = watches + group * REDUCE_CHUNK * WATCH_COUNT;
+  __global const int* alarm = alarms + group * REDUCE_CHUNK * ALARM_COUNT;
+  const int own = min(chunks - group * REDUCE_CHUNK, REDUCE_CHUNK);
+  for (int k = 0; k < WATCH_COUNT; ++k) {
+    real most = watch[k];
+    for (int chunk = 1; chunk < own; ++chunk) most = fmax(most, watch[chunk * WATCH_COUNT + k]);
+    group_watches[group * WATCH_COUNT + k] = most;
+  }
+  for (int k = 0; k < ALARM_COUNT; ++k) {
+    const bool least = k == ALARM_FIRST || k == ALARM_FIRST_INFECTED;
+    int found = alarm[k];
+    for (int chunk = 1; chunk < own; ++chunk) found = least ? min(found, alarm[chunk * ALARM_COUNT + k]) : found + alarm[chunk * ALARM_COUNT + k];
+    group_alarms[group * ALARM_COUNT + k] = found;
+  }
+}
+
 // longest: bound on Δt from what moves besides the fluid, s.
 __kernel void watch_total(__constant const parameters_t* p, int chunks, __global const real* watches, __global const int* alarms, real longest,
                           __global real* report) {
@@ -138,6 +158,16 @@ INLINE void add_compensated(real value, real* sum, real* rest) {
   *sum = total;
 }
 
+// Sums over chunks of rows of an array, column by column.
+__kernel void sum_rows(int rows, int columns, __global const real* from, __global real* to) {
+  const int item = get_global_id(0);
+  const int group = item / columns, column = item % columns;
+  if (group * REDUCE_CHUNK >= rows) return;
+  real sum = R(0.0), rest = R(0.0);
+  for (int row = group * REDUCE_CHUNK; row < min(rows, (group + 1) * REDUCE_CHUNK); ++row) add_compensated(from[row * columns + column], &sum, &rest);
+  to[item] = sum;
+}
+
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, int stride, __global real* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
@@ -158,26 +188,16 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
   for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
 }
 
-__kernel void energy_total(int chunks, __global const real* energies, __global real* total) {
-  if (get_global_id(0) != 0) return;
-  for (int k = 0; k < ENERGY_COUNT; ++k) {
-    real sum = R(0.0), rest = R(0.0);
-    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(energies[chunk * ENERGY_COUNT + k], &sum, &rest);
-    total[k] = sum;
-  }
-}
-
-// Packing's report: Σ and greatest of h |E|.
-__kernel void packing_total(int count, __global const real* rates, int stride, __global real* total) {
-  if (get_global_id(0) != 0) return;
-  real sum = R(0.0), rest = R(0.0), greatest = R(0.0);
-  for (int i = 0; i < count; ++i) {
+// Packing's report: Σ (h |E|)².
+__kernel void packing_chunks(int count, __global const real* rates, int stride, __global real* sums) {
+  const int chunk = get_global_id(0);
+  if (chunk * REDUCE_CHUNK >= count) return;
+  real sum = R(0.0), rest = R(0.0);
+  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     const real error = rates[RATE_COMPRESSION * stride + i];
     add_compensated(error * error, &sum, &rest);
-    greatest = fmax(greatest, error);
   }
-  total[0] = sqrt(sum / (real)count);
-  total[1] = greatest;
+  sums[chunk] = sum;
 }
 
 // Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner: N·s, N·m·s.
@@ -209,23 +229,33 @@ __kernel void guard_chunks(int count, __global const real* state, int stride, __
   }
 }
 
-__kernel void guard_totals(int values, int chunks, __global const real* impulses, __global real* report) {
+__kernel void guard_totals(int values, __global const real* impulses, __global real* report) {
   const int k = get_global_id(0);
-  if (k >= values) return;
-  real sum = R(0.0), rest = R(0.0);
-  for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(impulses[chunk * values + k], &sum, &rest);
-  report[REPORT_IMPULSES + k] = sum;
+  if (k < values) report[REPORT_IMPULSES + k] = impulses[k];
 }
 
-// Force and torque on each owner of walls, from what the runs of cells of its region do to it.
-__kernel void wrench_totals(int regions, int items, __global const int* region_values, __global const real* wrenches, __global real* totals) {
+// Force and torque on each owner of walls, from what the runs of cells of its region do to it: first of chunks of runs, of which each region has as many,
+// some of them empty.
+__kernel void wrench_chunks(int count, int chunks, int regions, int items, __global const int* region_values, __global const real* wrenches,
+                            __global real* sums) {
   const int k = get_global_id(0);
-  if (k >= regions) return;
-  const int first = region_values[k * REGION_COUNT + REGION_ITEM];
-  const int end = k + 1 < regions ? region_values[(k + 1) * REGION_COUNT + REGION_ITEM] : items;
+  if (k >= count) return;
+  const int region = k / chunks, chunk = k % chunks;
+  const int first = region_values[region * REGION_COUNT + REGION_ITEM] + chunk * REDUCE_CHUNK;
+  const int end = min(first + REDUCE_CHUNK, region + 1 < regions ? region_values[(region + 1) * REGION_COUNT + REGION_ITEM] : items);
   for (int part = 0; part < WRENCH_COUNT; ++part) {
     real sum = R(0.0), rest = R(0.0);
     for (int item = first; item < end; ++item) add_compensated(wrenches[item * WRENCH_COUNT + part], &sum, &rest);
+    sums[k * WRENCH_COUNT + part] = sum;
+  }
+}
+
+__kernel void wrench_totals(int regions, int chunks, __global const real* sums, __global real* totals) {
+  const int k = get_global_id(0);
+  if (k >= regions) return;
+  for (int part = 0; part < WRENCH_COUNT; ++part) {
+    real sum = R(0.0), rest = R(0.0);
+    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(sums[(k * chunks + chunk) * WRENCH_COUNT + part], &sum, &rest);
     totals[k * WRENCH_COUNT + part] = sum;
   }
 }

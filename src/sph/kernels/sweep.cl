@@ -104,6 +104,36 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
   return run;
 }
 
+#if THIN_WALLS
+typedef struct {
+  real seen, through;
+} sight_t;
+
+// What own particle k sees of candidate j at (rx, ry, rz), within the support, past thin walls: from itself and, if that lies elsewhere, from (x, y, z), where
+// an image has its neighbours.
+INLINE sight_t look_at(neighbours_t* near, __constant const parameters_t* p, int k, real x, real y, real z, int j, real rx, real ry, real rz, real r2) {
+  const real own_x = near->places.x[k], own_y = near->places.y[k], own_z = near->places.z[k];
+  int by = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz);
+  if (IMAGES && by == NO_OWNER) by = hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
+  const real transparency = near->transparency[k];
+  if (transparency > R(0.0) && beyond_thin(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
+    near->beyond[k] += kernel_value(p, sqrt(r2)) * near->state[FIELD_VOLUME * near->stride + j];
+  const sight_t sight = {by == NO_OWNER ? R(1.0) : transparency, by != NO_OWNER && by == near->watched ? R(1.0) : R(0.0)};
+  return sight;
+}
+
+// Whether thin walls may stand between any own particle and its neighbours around `at`.
+INLINE bool near_barriers(const neighbours_t* near, __constant const parameters_t* p, const places_t* at) {
+  bool any = false;
+  for (int k = 0; k < TILE_OWN; ++k) {
+    if (k >= near->own) continue;
+    any = any || has_barriers(p, near->walls, at->x[k], at->y[k], at->z[k]);
+    if (IMAGES) any = any || has_barriers(p, near->walls, near->places.x[k], near->places.y[k], near->places.z[k]);
+  }
+  return any;
+}
+#endif
+
 #if TILE_LANES == 1
 INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run, real x, real y, real z) {
   neighbours_t* near = &sums->near;
@@ -113,23 +143,21 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
 #endif
   __global const real* zs = near->state + FIELD_Z * near->stride;
 #if THIN_WALLS
-  const real own_x = near->places.x[0], own_y = near->places.y[0], own_z = near->places.z[0];
-  if (has_barriers(p, near->walls, x, y, z) || has_barriers(p, near->walls, own_x, own_y, own_z)) {
+  const places_t at = {{x}, {y}, {z}};
+  if (near_barriers(near, p, &at)) {
     for (int j = run.begin; j < run.end; ++j) {
       const real rx = xs[j] - x;
       const real ry = DIMENSIONS == 3 ? near->state[FIELD_Y * near->stride + j] - y : R(0.0);
       const real rz = zs[j] - z;
       const real r2 = rx * rx + ry * ry + rz * rz;
       if (r2 >= p->support_squared) continue;
-      // seen from the particle itself and, if that lies elsewhere, from where an image has its neighbours
-      near->hidden_by = hidden_in_cell(p, near->walls, x, y, z, rx, ry, rz);
-      if (IMAGES && near->hidden_by == NO_OWNER) near->hidden_by = hidden_in_cell(p, near->walls, own_x, own_y, own_z, rx, ry, rz);
-      if (near->hidden_by != NO_OWNER && near->transparency == R(0.0)) continue;
-      if (near->transparency > R(0.0) && beyond_thin(p, near->walls, own_x, own_y, own_z, rx, ry, rz))
-        near->beyond += kernel_value(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
-      add_particle(sums, p, j, rx, ry, rz, r2);
+      const sight_t sight = look_at(near, p, 0, x, y, z, j, rx, ry, rz, r2);
+      near->seen = sight.seen;
+      near->through = sight.through;
+      if (near->seen > R(0.0)) add_particle(sums, p, j, rx, ry, rz, r2);
     }
-    near->hidden_by = NO_OWNER;
+    near->seen = R(1.0);
+    near->through = R(0.0);
     return;
   }
 #endif
@@ -170,10 +198,149 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
 // Near a tile whose particles lie together, which has more of them than one alone.
 #define MOST_ROWS 64
 
+#if THIN_WALLS
+// More thin walls near a tile are looked at one candidate at a time.
+#define MOST_BARRIERS 12
+
+// Those within the support of any own particle, in the order in which their cells list them: how many; −1 if there are more than MOST_BARRIERS.
+INLINE int find_barriers(const neighbours_t* near, __constant const parameters_t* p, const places_t* at, int* list) {
+  int count = 0;
+  for (int k = 0; k < TILE_OWN; ++k) {
+    if (k >= near->own) continue;
+    const real x = at->x[k], y = at->y[k], z = at->z[k];
+    const int cell = cell_index(p, x, y, z);
+    for (int m = near->walls->barrier_start[cell]; m < near->walls->barrier_start[cell + 1]; ++m) {
+      const int found = near->walls->barrier_list[m];
+      __global const real* b = near->walls->barriers + BARRIER_COUNT * found;
+      bool relevant = fabs(b[0] * x + b[1] * y + b[2] * z + b[3]) < p->support;
+      for (int e = 1; e < 4; ++e) relevant = relevant && b[4 * e] * x + b[4 * e + 1] * y + b[4 * e + 2] * z + b[4 * e + 3] > -p->support;
+      for (int n = 0; n < count; ++n) relevant = relevant && list[n] != found;
+      if (!relevant) continue;
+      if (count == MOST_BARRIERS) return -1;
+      list[count++] = found;
+    }
+  }
+  return count;
+}
+
+// The barriers near a tile, and how far before each plane its own particles are.
+typedef struct {
+  int count;
+  int list[MOST_BARRIERS];
+  tile before[MOST_BARRIERS];
+} near_barriers_t;
+
+// 1 for what is positive, else 0; for what is next to zero between them. (step() and comparisons of vectors are calls.)
+INLINE tile positive(tile v) { return fmin(fmax(v * R(1.0e20), (tile)(R(0.0))), (tile)(R(1.0))); }
+
+INLINE bool any_positive(tile v) {
+  real sums[TILE_OWN];
+  own_sums(fmax(v, (tile)(R(0.0))), sums);
+  real sum = R(0.0);
+  for (int k = 0; k < TILE_OWN; ++k) sum += sums[k];
+  return sum > R(0.0);
+}
+
+// 1 where the ways from (x, y, z) cross the barrier, if they cross its plane, from `before` to `after`.
+INLINE tile crossings(__global const real* b, tile x, tile y, tile z, tile rx, tile ry, tile rz, tile before, tile after) {
+  const tile part = before / (before - after);
+  const tile cx = x + part * rx, cy = y + part * ry, cz = z + part * rz;
+  tile mask = positive(-before * after);
+  for (int e = 1; e < 4; ++e) mask *= positive(b[4 * e] * cx + b[4 * e + 1] * cy + b[4 * e + 2] * cz + b[4 * e + 3]);
+  return mask;
+}
+
+// As look_at, of all candidates at once: past the given barriers. `transparency`: of each lane; Σ W V of all that are beyond goes into `beyond`.
+INLINE void look_past(neighbours_t* near, __constant const parameters_t* p, const near_barriers_t* barriers, tile transparency, tile* beyond, int j, tile x,
+                      tile y, tile z, tile rx, tile ry, tile rz, tile r2) {
+  const tile nothing = (tile)(R(0.0)), one = (tile)(R(1.0));
+  near->seen = one;
+  near->through = nothing;
+  int crossed[MOST_BARRIERS];
+  tile in[MOST_BARRIERS], out[MOST_BARRIERS];
+  int count = 0;
+  for (int k = 0; k < barriers->count; ++k) {
+    __global const real* b = near->walls->barriers + BARRIER_COUNT * barriers->list[k];
+    const tile before = barriers->before[k];
+    const tile after = before + b[0] * rx + b[1] * ry + b[2] * rz;
+    if (!any_positive(-before * after)) continue;
+    const tile mask = crossings(b, x, y, z, rx, ry, rz, before, after);
+    in[count] = mask * positive(-before);
+    out[count] = mask - in[count];
+    crossed[count++] = barriers->list[k];
+  }
+  if (count == 0) return;
+  tile left = nothing, by = nothing;  // a thin wall's back; by whom hidden: the owner, and one
+  for (int k = 0; k < count; ++k) {
+    left = fmax(left, out[k]);
+    __global const real* front = near->walls->barriers + BARRIER_COUNT * crossed[k];
+    for (int l = 0; l < count; ++l) {
+      __global const real* back = near->walls->barriers + BARRIER_COUNT * crossed[l];
+      if (front[0] * back[0] + front[1] * back[1] + front[2] * back[2] >= R(-0.5)) continue;
+      by = fmax(by, in[k] * out[l] * (fmax(front[BARRIER_OWNER], back[BARRIER_OWNER]) + R(1.0)));
+    }
+  }
+  const tile hidden = fmin(by, one);
+  near->seen = one + hidden * (transparency - one);
+  near->through = hidden * (one - fmin(fabs(by - (real)(near->watched + 1)), one));
+  *beyond += left * kernel_values(p, sqrt(r2)) * near_field(near, FIELD_VOLUME, j);
+}
+
+// As look_at, of all candidates from j on, of which `left` are left.
+INLINE void look_at_all(neighbours_t* near, __constant const parameters_t* p, const places_t* at, int j, int left, tile rx, tile ry, tile rz, tile r2) {
+  real x[TILE_LANES], y[TILE_LANES], z[TILE_LANES], square[TILE_LANES], seen[TILE_LANES], through[TILE_LANES];
+  lanes_of(rx, x);
+  lanes_of(ry, y);
+  lanes_of(rz, z);
+  lanes_of(r2, square);
+  for (int lane = 0; lane < TILE_LANES; ++lane) {
+    const int k = lane / TILE_NEAR, candidate = lane % TILE_NEAR;
+    seen[lane] = R(1.0);
+    through[lane] = R(0.0);
+    if (k >= near->own || candidate >= left || square[lane] >= p->support_squared) continue;
+    const sight_t sight = look_at(near, p, k, at->x[k], at->y[k], at->z[k], j + candidate, x[lane], y[lane], z[lane], square[lane]);
+    seen[lane] = sight.seen;
+    through[lane] = sight.through;
+  }
+  near->seen = tile_of(seen);
+  near->through = tile_of(through);
+}
+#endif
+
+// The candidates from j on, of which `left` are left in their run; those beyond its end, of other slots, are far away.
+typedef struct {
+  int j, left;
+  tile rx, ry, rz, r2;
+} block_t;
+
+INLINE block_t block_of(const neighbours_t* near, const int* run, int gone, tile x, tile y, tile z) {
+  block_t b;
+  b.j = run[0] + gone;
+  b.left = run[1] - b.j;
+  b.rx = near_field(near, FIELD_X, b.j) - x;
+#if DIMENSIONS == 3
+  b.ry = near_field(near, FIELD_Y, b.j) - y;
+#else
+  b.ry = (tile)(R(0.0));
+#endif
+  b.rz = near_field(near, FIELD_Z, b.j) - z;
+  b.r2 = b.rx * b.rx + b.ry * b.ry + b.rz * b.rz + beyond_end(b.left);
+  return b;
+}
+
+INLINE void sweep_blocks(sweep_t* sums, __constant const parameters_t* p, const int* list, int blocks, tile x, tile y, tile z) {
+  const int* run = list;
+  for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
+    const block_t b = block_of(&sums->near, run, gone, x, y, z);
+    add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
+    run += b.left <= TILE_NEAR ? 2 : 0;
+  }
+}
+
 // All rows near the box, of which there are no more than MOST_ROWS. First a list of runs, then the candidates of all of them in one loop, whose end a
 // processor foresees: runs are short.
-INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, tile x, tile y, tile z) {
-  const neighbours_t* near = &sums->near;
+INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, const places_t* at, tile x, tile y, tile z) {
+  neighbours_t* near = &sums->near;
   const rows_t rows = rows_near(p, &box, near->reach);
   const span_t span = span_of(p, &box);
   const real reach2 = near->reach * near->reach;
@@ -192,22 +359,41 @@ INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global 
       blocks += (length + TILE_NEAR - 1) / TILE_NEAR;
     }
   }
+#if THIN_WALLS
+  // two loops, so that the compiler leaves out of one what thin walls take
+  near_barriers_t barriers;
+  barriers.count = IMAGES ? -(int)near_barriers(near, p, at) : find_barriers(near, p, at, barriers.list);
+  near->seen = (tile)(R(1.0));
+  near->through = (tile)(R(0.0));
+  if (barriers.count == 0) {
+    sweep_blocks(sums, p, list, blocks, x, y, z);
+    return;
+  }
+  const tile transparency = spread_own(near->transparency);
+  tile beyond = (tile)(R(0.0));
+  for (int k = 0; k < barriers.count; ++k) {
+    __global const real* b = near->walls->barriers + BARRIER_COUNT * barriers.list[k];
+    barriers.before[k] = b[0] * x + b[1] * y + b[2] * z + b[3];
+  }
   const int* run = list;
   for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
-    const int j = run[0] + gone;
-    const int left = run[1] - j;
-    const tile rx = near_field(near, FIELD_X, j) - x;
-#if DIMENSIONS == 3
-    const tile ry_ = near_field(near, FIELD_Y, j) - y;
-#else
-    const tile ry_ = (tile)(R(0.0));
-#endif
-    const tile rz_ = near_field(near, FIELD_Z, j) - z;
-    const tile r2 = rx * rx + ry_ * ry_ + rz_ * rz_;
-    // beyond the run's end lie particles of other slots
-    add_particle(sums, p, j, rx, ry_, rz_, r2 + beyond_end(left));
-    run += left <= TILE_NEAR ? 2 : 0;
+    const block_t b = block_of(near, run, gone, x, y, z);
+    if (barriers.count > 0)
+      look_past(near, p, &barriers, transparency, &beyond, b.j, x, y, z, b.rx, b.ry, b.rz, b.r2);
+    else
+      look_at_all(near, p, at, b.j, b.left, b.rx, b.ry, b.rz, b.r2);
+    add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
+    run += b.left <= TILE_NEAR ? 2 : 0;
   }
+  real sums_beyond[TILE_OWN];
+  own_sums(beyond, sums_beyond);
+  for (int k = 0; k < TILE_OWN; ++k)
+    if (near->transparency[k] > R(0.0)) near->beyond[k] += sums_beyond[k];
+  near->seen = (tile)(R(1.0));
+  near->through = (tile)(R(0.0));
+#else
+  sweep_blocks(sums, p, list, blocks, x, y, z);
+#endif
 }
 
 // The neighbours around `at`, which for images is not where the particles themselves lie. Where the tile's particles do not lie together, in spray, each
@@ -215,7 +401,7 @@ INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global 
 INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
   const tile x = spread_own(at->x), y = spread_own(at->y), z = spread_own(at->z);
 #if TILE_OWN == 1
-  sweep_box(sums, p, slot_start, within_grid(p, box_of_place(at, 0)), x, y, z);
+  sweep_box(sums, p, slot_start, within_grid(p, box_of_place(at, 0)), at, x, y, z);
 #else
   const int own = sums->near.own;
   const box_t all = within_grid(p, box_of_places(at, own));
@@ -229,7 +415,7 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
       box = within_grid(p, box_of_place(at, part));
       at_x = OWN_LANES == (tile)((real)part) ? x : (tile)(FAR_AWAY);
     }
-    sweep_box(sums, p, slot_start, box, at_x, y, z);
+    sweep_box(sums, p, slot_start, box, at, at_x, y, z);
   }
 #endif
 }
@@ -274,7 +460,8 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
 INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   places_t at = sums->near.places;
 #if THIN_WALLS
-  sums->near.transparency = transparency_at(p, sums->near.walls, at.x[0], at.y[0], at.z[0]);
+  for (int k = 0; k < TILE_OWN; ++k)
+    if (k < sums->near.own) sums->near.transparency[k] = transparency_at(p, sums->near.walls, at.x[k], at.y[k], at.z[k]);
 #endif
 #if IMAGES
   for (int k = -1; k < p->images; ++k) {  // first the tank itself: one call, or the whole loop would be compiled twice
@@ -327,9 +514,11 @@ INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real 
   // far from full, a far side is not dry
   walls->share = transparency * fmin((R(20.0) * beyond + LITTLE_ROOM) / fmax(room, LITTLE_ROOM), R(1.0));
 }
-#define LOOK_THROUGH(walls, near, x, y, z) look_through(p, &(walls), (near).transparency, (near).beyond, x, y, z)
+// Of own particle k.
+#define LOOK_THROUGH(walls, near, k) \
+  look_through(p, &(walls), (near).transparency[k], (near).beyond[k], (near).places.x[k], (near).places.y[k], (near).places.z[k])
 #else
-#define LOOK_THROUGH(walls, near, x, y, z)
+#define LOOK_THROUGH(walls, near, k)
 #endif
 
 #ifdef SWEEP_WALLS

@@ -25,7 +25,8 @@ typedef float16 tile;
 
 // spread_own(v): the value of each own particle, once for each candidate; near_values(v, j): of the candidates from j on, once for each own particle;
 // beyond_end(left): nothing for each candidate but those after the first `left`, which it puts far away. OWN_LANES: which own particle each lane has.
-// own_sums: over the candidates, of each own particle.
+// own_sums: over the candidates, of each own particle. Lane l is that of own particle l / TILE_NEAR and candidate l % TILE_NEAR: lanes_of and tile_of have
+// each by itself.
 #define FAR_AWAY R(1.0e12)
 #if TILE_NEAR > 1
 __constant real after_end[2 * TILE_NEAR] = {
@@ -111,6 +112,17 @@ INLINE tile near_values(__global const real* v, int j) { return vload4(0, v + j)
 INLINE void own_sums(tile a, real* sums) { sums[0] = sum4(a); }
 INLINE tile beyond_end(int left) { return vload4(0, AFTER_END(left)); }
 #endif
+#endif
+
+#if TILE_LANES == 4
+INLINE void lanes_of(tile v, real* lanes) { vstore4(v, 0, lanes); }
+INLINE tile tile_of(const real* lanes) { return vload4(0, lanes); }
+#elif TILE_LANES == 8
+INLINE void lanes_of(tile v, real* lanes) { vstore8(v, 0, lanes); }
+INLINE tile tile_of(const real* lanes) { return vload8(0, lanes); }
+#elif TILE_LANES == 16
+INLINE void lanes_of(tile v, real* lanes) { vstore16(v, 0, lanes); }
+INLINE tile tile_of(const real* lanes) { return vload16(0, lanes); }
 #endif
 
 typedef struct {

@@ -111,6 +111,121 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
   derive(p, state, stride, i, compression, state[FIELD_MASS * stride + i]);
 }
 
+// Runge and Kutta's, and the predictor and corrector: a sum of weighted rates of several states.
+#define SUM_X 0
+#define SUM_U 3
+#define SUM_COMPRESSION 6
+#define SUM_STEADY 7
+
+// Trial state: positions and velocities of a particle are set already.
+INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, int stride, int i, real compression, real steady) {
+  trial[FIELD_STEADY * stride + i] = steady;
+  derive(p, trial, stride, i, compression, now[FIELD_MASS * stride + i]);
+  if (is_lost(trial, stride, i)) leave_out(trial, stride, i);
+}
+
+// sum (+)= weight rates, of the trial state or, first, of that which is now; trial = now + part Δt rates.
+__kernel void go_on_trial(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, int stride, __global const real* rates,
+                          __global const real* time_step, __global real* sum, int first, real weight, real part) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const real step = part * time_step[0];
+  __global const real* of = first ? now : trial;
+  for (int axis = 0; axis < 3; ++axis) {
+    const real speed = of[(FIELD_U + axis) * stride + i];
+    const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
+    __global real* sum_x = sum + (SUM_X + axis) * stride + i;
+    __global real* sum_u = sum + (SUM_U + axis) * stride + i;
+    *sum_x = (first ? R(0.0) : *sum_x) + weight * speed;
+    *sum_u = (first ? R(0.0) : *sum_u) + weight * acceleration;
+    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * speed;
+    trial[(FIELD_U + axis) * stride + i] = now[(FIELD_U + axis) * stride + i] + step * acceleration;
+  }
+  const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
+  __global real* sum_s = sum + SUM_COMPRESSION * stride + i;
+  __global real* sum_d = sum + SUM_STEADY * stride + i;
+  *sum_s = (first ? R(0.0) : *sum_s) + weight * compression;
+  *sum_d = (first ? R(0.0) : *sum_d) + weight * steady;
+  finish_trial(p, now, trial, stride, i, now[FIELD_COMPRESSION * stride + i] + step * compression, now[FIELD_STEADY * stride + i] + step * steady);
+}
+
+// What the guard and the next step need of a step that began at the given place and goes to the end with these sums. What was found of the walls' distance
+// at the trial state's place counts from the start.
+INLINE void end_step(__constant const parameters_t* p, __global real* now, __global real* trial, int stride, int i, __global real* rates, const real* start,
+                     real compression, real steady) {
+  real way = R(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const real back = trial[(FIELD_X + axis) * stride + i] - start[axis];
+    way += back * back;
+    trial[(FIELD_X + axis) * stride + i] = start[axis];
+    trial[(FIELD_U + axis) * stride + i] = R(0.0);
+  }
+  rates[RATE_CLEARANCE * stride + i] -= sqrt(way);
+  wrap(p, now, stride, i);
+  const real trial_compression = trial[FIELD_COMPRESSION * stride + i];
+  if (not_finite(trial_compression)) now[FIELD_U * stride + i] = trial_compression;  // lost in all
+  now[FIELD_STEADY * stride + i] = steady;
+  derive(p, now, stride, i, compression, now[FIELD_MASS * stride + i]);
+}
+
+// now += Δt (sum + weight rates), of the trial state.
+__kernel void take_sum(__constant const parameters_t* p, int count, __global real* now, __global real* trial, int stride, __global real* rates,
+                       __global const real* time_step, __global const real* sum, real weight) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const real step = time_step[0];
+  real start[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    start[axis] = now[(FIELD_X + axis) * stride + i];
+    const real speed = trial[(FIELD_U + axis) * stride + i];
+    const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
+    move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * speed));
+    now[(FIELD_U + axis) * stride + i] += step * (sum[(SUM_U + axis) * stride + i] + weight * acceleration);
+  }
+  end_step(p, now, trial, stride, i, rates, start,
+           now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + weight * rates[RATE_COMPRESSION * stride + i]),
+           now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + weight * rates[RATE_STEADY * stride + i]));
+}
+
+// trial: u* = u + Δt f*, x* = x + Δt u*, s* = s + Δt r*; half of the rates go into the sum.
+__kernel void predict_end(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, int stride, __global const real* rates,
+                          __global const real* time_step, __global real* sum) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const real step = time_step[0];
+  for (int axis = 0; axis < 3; ++axis) {
+    const real speed = now[(FIELD_U + axis) * stride + i];
+    const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
+    sum[(SUM_U + axis) * stride + i] = R(0.5) * acceleration;
+    trial[(FIELD_U + axis) * stride + i] = speed + step * acceleration;
+    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * (speed + step * acceleration);
+  }
+  const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
+  sum[SUM_COMPRESSION * stride + i] = R(0.5) * compression;
+  sum[SUM_STEADY * stride + i] = R(0.5) * steady;
+  finish_trial(p, now, trial, stride, i, now[FIELD_COMPRESSION * stride + i] + step * compression, now[FIELD_STEADY * stride + i] + step * steady);
+}
+
+// now: u += Δt (sum + f**/2), s likewise, x += Δt (u before + u after)/2.
+__kernel void correct_end(__constant const parameters_t* p, int count, __global real* now, __global real* trial, int stride, __global real* rates,
+                          __global const real* time_step, __global const real* sum) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const real step = time_step[0];
+  real start[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    start[axis] = now[(FIELD_X + axis) * stride + i];
+    const real before = now[(FIELD_U + axis) * stride + i];
+    const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * trial[(FIELD_U + axis) * stride + i];
+    const real after = before + step * (sum[(SUM_U + axis) * stride + i] + R(0.5) * acceleration);
+    now[(FIELD_U + axis) * stride + i] = after;
+    move(now, stride, axis, i, R(0.5) * step * (before + after));
+  }
+  end_step(p, now, trial, stride, i, rates, start,
+           now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + R(0.5) * rates[RATE_COMPRESSION * stride + i]),
+           now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + R(0.5) * rates[RATE_STEADY * stride + i]));
+}
+
 // One iteration of packing: the rates hold displacements.
 __kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, __global real* half_state, int stride,
                           __global const real* rates) {

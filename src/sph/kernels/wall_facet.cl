@@ -224,9 +224,14 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
     c.moment = f.moment;
     return c;
   }
+#if THIN_WALLS
+  const bool whole = !has_barriers(p, walls, x, y, z);
+#else
+  const bool whole = true;
+#endif
   for (int k = 0; k < 3; ++k) {
     // as long as both facets of the plane show the same side, and are not hidden by themselves
-    const bool inner = !THIN_WALLS && height >= R(0.0) && fabs(fields[WALL_EDGES + EDGE_COUNT * k + 7]) > R(1.5);
+    const bool inner = whole && height >= R(0.0) && fabs(fields[WALL_EDGES + EDGE_COUNT * k + 7]) > R(1.5);
     const edge_t e = edge_terms(d, -beside[k], from[k], to[k], inner);
     shepard += e.shepard;
     c.weight += e.weight;

@@ -123,7 +123,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     sweep_t a = {0};
     start_sums(&a, p, first, end, state, stride, reach, &walls);
 #if THIN_WALLS
-    a.owner = owner;
+    a.near.watched = owner;
 #endif
 #if GHOSTS
     sweep_ghosts(&a, p, slot_start, images);
@@ -134,7 +134,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     finish_particles(&a, &sums);
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
-      LOOK_THROUGH(walls, a.near, a.near.places.x[own], a.near.places.y[own], a.near.places.z[own]);
+      LOOK_THROUGH(walls, a.near, own);
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, film, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
       push = mixed(R(1.0), push, R(1.0), f.push);

@@ -1,0 +1,22 @@
+#include "integrator.h"
+
+#include "wavetank/sph/schedule_page.h"
+
+namespace wavetank {
+
+std::vector<Access> state_of(const std::string& instant) {
+  return at(instant, {"position", "velocity", "compression", "steady diffusion", "pressure", "volume"});
+}
+
+Schedule schedule_of(Integrator integrator, StepEngine* engine) {
+  switch (integrator) {
+    case Integrator::runge_kutta_4: return runge_kutta_4(engine);
+    case Integrator::predictor_corrector: return predictor_corrector(engine);
+    case Integrator::symplectic: break;
+  }
+  return symplectic(engine);
+}
+
+std::string schedule_page(const Case& scene) { return schedule_of(scene.numerics.integrator, nullptr).page(); }
+
+}  // namespace wavetank

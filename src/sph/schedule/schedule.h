@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wavetank {
+
+/// An array of the particles, and the instant that its values are of: where an integrator keeps several.
+struct Access {
+  std::string array;
+  std::string instant;
+
+  bool operator<(const Access& other) const { return array != other.array ? array < other.array : instant < other.instant; }
+  bool operator==(const Access& other) const { return array == other.array && instant == other.instant; }
+};
+
+/// All of some arrays at one instant.
+std::vector<Access> at(const std::string& instant, const std::vector<std::string>& arrays);
+
+std::vector<Access> operator+(std::vector<Access> some, const std::vector<Access>& others);
+
+/// One stage of a time step.
+struct Stage {
+  std::string name;
+  std::vector<Access> reads, writes;
+  std::function<void()> run;
+  double moves = 0;     ///< how far the positions that it writes are from where they were sorted, in steps
+  bool sweeps = false;  ///< it goes over the neighbours of what it reads
+  bool sorts = false;   ///< it gives particles other places in memory: what it does not write is left behind
+};
+
+/// A time step as data: its stages in their order, which can be checked and printed before one is run.
+class Schedule {
+ public:
+  Schedule() = default;
+  /// `kept`: what a step begins with and leaves to the next one.
+  Schedule(std::string integrator, std::vector<Access> kept, std::vector<Stage> stages);
+
+  /// Throws Error, in one sentence, if a stage reads what nothing has written, or what a sort has left behind, or if a step does not leave
+  /// what the next one begins with.
+  void check() const;
+  /// The stages and what they read and write, as a table of text.
+  std::string page() const;
+  /// How far particles may be from where they were sorted when their neighbours are gone over, in steps.
+  double drift() const;
+  void run() const;
+
+ private:
+  std::string integrator_;
+  std::vector<Access> kept_;
+  std::vector<Stage> stages_;
+};
+
+}  // namespace wavetank
