@@ -119,12 +119,18 @@ int main() {
       Carried mover(dimensions);
       run(device, scene, {Vector3d::Zero(), Vector3d(0.35, 0.1, 0.05)}, &mover);
     }
+    for (const auto integrator : {wavetank::Integrator::runge_kutta_4, wavetank::Integrator::predictor_corrector}) {
+      wavetank::Case scene = column(2, wavetank::DensityDiffusion::fourtakas);
+      scene.numerics.integrator = integrator;
+      run(device, scene);
+    }
     // tiles of sixteen lanes, which read beyond the last particle
     wavetank::compute::DeviceInfo wide = device.info();
     wide.vector_width = 16;
     wavetank::Case open_water = column(3, wavetank::DensityDiffusion::antuono);
     open_water.bodies.clear();
     run(wavetank::compute::Device(wide), open_water, {Vector3d::Zero()});
+    run(wavetank::compute::Device(wide), column(3, wavetank::DensityDiffusion::fourtakas));  // past the box, which is thin
     std::set<std::string> kernels;
     for (const auto& timing : device.timings()) kernels.insert(timing.kernel);
     std::printf("kernels run:");
