@@ -37,11 +37,22 @@ Box box_of(const Facet& facet, int dimensions) {
   return box;
 }
 
+/// Whether a joint keeps its two bodies together; else contacts do not leave them alone.
+bool holds_together(const JointCase& joint, int dimensions) {
+  if (joint.type == JointType::spring) return false;
+  if (joint.type != JointType::six_dof) return true;
+  const auto locked = [&](int axis) {
+    const auto& limits = joint.six_limits[axis];
+    return (dimensions == 2 && axis == 1) || (limits && (*limits)[0] == (*limits)[1]);
+  };
+  return locked(0) && locked(1) && locked(2);
+}
+
 /// The joint that holds two bodies; none.
 const JointCase* joint_between(const Case& checked, int a, int b) {
   const std::string &first = checked.bodies[a - 1].name, &second = checked.bodies[b - 1].name;
   const auto holds = [&](const JointCase& joint) {
-    return joint.type != JointType::spring &&
+    return holds_together(joint, checked.dimensions) &&
            ((joint.child == first && joint.parent == second) || (joint.child == second && joint.parent == first));
   };
   const auto found = std::find_if(checked.joints.begin(), checked.joints.end(), holds);

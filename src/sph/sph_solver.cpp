@@ -24,11 +24,11 @@ bool all_finite(const std::vector<WallWrench>& wrenches) {
   return true;
 }
 
-/// How far a particle may be from where it was sorted when wrenches are found, m: at half the speed of sound the watchdog ends the run, and
-/// a step is courant h/(c₀ + |u|) at the most.
+/// How far a particle may be from where it was sorted when wrenches are found, m: a step is courant h/c₀ at the most, and at half the speed
+/// of sound the watchdog ends the run.
 double farthest_drift(const Case& scene, const Discretisation& d) {
-  const double step = scene.numerics.courant * d.smoothing_length / 3;
-  return std::max(0.25 * d.spacing, schedule_of(scene.numerics.integrator, nullptr).drift() * step);
+  const double way = 0.5 * scene.numerics.courant * d.smoothing_length;
+  return std::max(0.25 * d.spacing, schedule_of(scene.numerics.integrator, nullptr).drift() * way);
 }
 
 /// Whole vectors, and one more: a tile may read beyond the last particle.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "build_options.h"
@@ -86,8 +87,10 @@ class SphSolver final : public Solver, private StepEngine {
   const Buffer& buffer_of(Slot state) const { return state == Slot::now ? state_ : half_; }
   /// For what a particle may move in a part of the step, at `speed`, m/s.
   void widen_reach(double part, double speed);
-  /// Of any particle in this step, as far as the last one tells, m/s.
-  double speed_in_step() const { return greatest_speed_ + 2 * step_ * greatest_acceleration_; }
+  /// Of any particle in this step, as far as the last one tells, m/s; the watchdog ends a run at half the speed of sound.
+  double speed_in_step() const {
+    return std::max(greatest_speed_, std::min(greatest_speed_ + 2 * step_ * greatest_acceleration_, 0.5 * discretisation_.sound_speed));
+  }
   void place_walls(const WallMotions& motions);
   void place_barriers();
   void load_walls(const Buffer& state);

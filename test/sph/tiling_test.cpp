@@ -116,6 +116,16 @@ TEST(Tiling, DoesNotChangeTheSumsIn3D) { compare(column(3, Precision::single, fa
 TEST(Tiling, DoesNotChangeTheSumsInAPeriodicTank) { compare(column(2, Precision::single, true), {16}, 2e-6); }
 TEST(Tiling, DoesNotChangeTheSumsInDoublePrecision) { compare(column(2, Precision::double_, false), {16}, 1e-13); }
 
+/// With a plate thinner than the support in the water, two of its edges free.
+Case column_about_plate(int dimensions) {
+  Case scene = column(dimensions, Precision::single, false);
+  scene.bodies[0] = {"plate", Box{Vector3d(0.19, 0.12, 0.1), Vector3d(dimensions == 3 ? 0.23 : 0.21, 0.28, 0.4)}, Motion::fixed};
+  return scene;
+}
+
+TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn2D) { compare(column_about_plate(2), {4, 16}, 2e-6); }
+TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn3D) { compare(column_about_plate(3), {8, 16}, 2e-6); }
+
 TEST(Tiling, DoesNotChangeTheSumsAsOnAGpu) {
   const Case scene = column(3, Precision::single, false);
   expect_same(outcome(disguised(1, false), scene), outcome(disguised(1, true), scene), 2e-6);

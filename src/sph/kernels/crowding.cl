@@ -9,7 +9,7 @@ typedef struct {
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  a->filling += kernel_values(p, sqrt(r2)) * near_field(&a->near, FIELD_VOLUME, j);
+  a->filling += kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
 }
 
 #include "sweep.cl"

@@ -1,4 +1,4 @@
-// What the neighbour loop goes through: per particle, its true pairs, within the support and itself left out, and all of its candidates.
+// What the neighbour loop goes through: per particle, its true pairs, within the support, in sight and itself left out, and all of its candidates.
 #include "walls.cl"
 #define SWEEP_PARTICLES
 
@@ -8,7 +8,12 @@ typedef struct {
 } sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  a->within += r2 < (tile)(p->support_squared) ? (tile)(R(1.0)) : (tile)(R(0.0));
+#if THIN_WALLS
+  const tile counted = fmin(a->near.seen * R(1.0e20), (tile)(R(1.0)));
+#else
+  const tile counted = (tile)(R(1.0));
+#endif
+  a->within += r2 < (tile)(p->support_squared) ? counted : (tile)(R(0.0));
   a->candidates += R(1.0);
 }
 

@@ -243,7 +243,7 @@ INLINE bool any_positive(tile v) {
 
 // 1 where the ways from (x, y, z) cross the barrier, if they cross its plane, from `before` to `after`.
 INLINE tile crossings(__global const real* b, tile x, tile y, tile z, tile rx, tile ry, tile rz, tile before, tile after) {
-  const tile part = before / (before - after);
+  const tile part = fabs(before) / fmax(fabs(before) + fabs(after), (tile)(R(1.0e-30)));  // of ways that do not cross any, but finite
   const tile cx = x + part * rx, cy = y + part * ry, cz = z + part * rz;
   tile mask = positive(-before * after);
   for (int e = 1; e < 4; ++e) mask *= positive(b[4 * e] * cx + b[4 * e + 1] * cy + b[4 * e + 2] * cz + b[4 * e + 3]);

@@ -121,7 +121,9 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, int stride, int i, real compression, real steady) {
   trial[FIELD_STEADY * stride + i] = steady;
   derive(p, trial, stride, i, compression, now[FIELD_MASS * stride + i]);
-  if (is_lost(trial, stride, i)) leave_out(trial, stride, i);
+  if (!is_lost(trial, stride, i)) return;
+  leave_out(trial, stride, i);  // the sums have what was lost
+  trial[FIELD_COMPRESSION * stride + i] = trial[FIELD_STEADY * stride + i] = R(0.0);
 }
 
 // sum (+)= weight rates, of the trial state or, first, of that which is now; trial = now + part Δt rates.
@@ -162,8 +164,7 @@ INLINE void end_step(__constant const parameters_t* p, __global real* now, __glo
   }
   rates[RATE_CLEARANCE * stride + i] -= sqrt(way);
   wrap(p, now, stride, i);
-  const real trial_compression = trial[FIELD_COMPRESSION * stride + i];
-  if (not_finite(trial_compression)) now[FIELD_U * stride + i] = trial_compression;  // lost in all
+  if (not_finite(compression)) now[FIELD_U * stride + i] = compression;  // lost in all
   now[FIELD_STEADY * stride + i] = steady;
   derive(p, now, stride, i, compression, now[FIELD_MASS * stride + i]);
 }
