@@ -11,6 +11,7 @@ foreach(library ${rooms})
   catkin_add_executable_with_gtest(${room}_test ${sources} EXCLUDE_FROM_ALL)
   target_link_libraries(${room}_test ${library} ${GTEST_MAIN_LIBRARIES})
   target_compile_definitions(${room}_test PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
+  target_compile_options(${room}_test PRIVATE -O1)  # what is slow in them is the libraries'
   # what most of a test's compilation is spent on
   target_precompile_headers(${room}_test PRIVATE <gtest/gtest.h> <Eigen/Geometry> <cmath> <cstdio> <fstream> <functional> <map> <random> <string> <vector>)
   if(WAVETANK_STANDALONE)

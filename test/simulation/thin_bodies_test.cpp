@@ -84,7 +84,9 @@ TEST_F(ThinBodies, WedgesFeelArchimedesForce) {
     MeshSource mesh;
     mesh.uri = path("wedge.stl");
     mesh.translation = Vector3d(0.25, 0, 0.1);
-    for (const double spacing : {0.035, 0.03, 0.025, 0.022, 0.018, 0.015}) {
+    // `scripts/validate reported` asks for all
+    const bool all = std::getenv("WAVETANK_LONG_TESTS") != nullptr;
+    for (const double spacing : all ? std::vector<double>{0.035, 0.03, 0.025, 0.022, 0.018, 0.015} : std::vector<double>{0.03, 0.022, 0.018}) {
       const std::string name = "wedge of " + std::to_string(static_cast<int>(degrees)) + " degrees at " + std::to_string(spacing) + " m";
       rests(name.c_str(), tank_with({"wedge", mesh}, spacing), 0.5 * 0.3 * height, 0.08);
     }
