@@ -105,8 +105,9 @@ void BagRun::write_samples() {
   if (!samples.energies.empty()) energies_ = samples.energies.back();
   seconds_ = elapsed();
   if (!recorder_) return;
-  messages_->emit(samples, clock_,
-                  [this](const std::string& topic, const ros::Time& stamp, const auto& message) { recorder_->write(topic, stamp, message); });
+  messages_->emit(samples, clock_, [this](const std::string& topic, const ros::Time& stamp, const auto& message) {
+    recorder_->write(topic, stamp, message);
+  });
   RunState run = run_state(SolverStatus::RUNNING);
   if (seconds_ > 0) {
     run.real_time_factor = (last_.time - first_.time) / seconds_;

@@ -172,7 +172,7 @@ Section<NumericsCase> numerics_section() {
               choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
               "What the fluid does where its pressure would fall below that of the air.");
   section.key("shifting", &NumericsCase::shifting, choice<Shifting>({{"none", Shifting::none}}), "", "Particle shifting law.");
-  section.key("integrator", &NumericsCase::integrator, 
+  section.key("integrator", &NumericsCase::integrator,
               choice<Integrator>({{"symplectic", Integrator::symplectic},
                                   {"predictor_corrector", Integrator::predictor_corrector},
                                   {"runge_kutta_4", Integrator::runge_kutta_4}}),

@@ -99,7 +99,8 @@ WallArrays<Real> CaseWalls::arrays(const compute::Device& device, const Layout& 
     const std::vector<Facet> parts = facets_of(element, dimensions_);
     facets.insert(facets.end(), parts.begin(), parts.end());
   }
-  return WallArrays<Real>(device, facets, whole ? own.pieces : std::vector<FacetPiece>(), whole ? thin.facets : thin.triangles, kind_, discretisation_);
+  return WallArrays<Real>(device, facets, whole ? own.pieces : std::vector<FacetPiece>(), whole ? thin.facets : thin.triangles, kind_,
+                          discretisation_);
 }
 
 std::vector<WallElement> CaseWalls::supporting_lid() const {

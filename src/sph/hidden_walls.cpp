@@ -12,7 +12,12 @@ constexpr double look_off = 0.05;  // of the spacing
 }  // namespace
 
 HiddenWalls::HiddenWalls(const Layout& layout, int dimensions)
-    : dimensions_(dimensions), look_off_(look_off * layout.spacing), by_(layout.meshes.size()), solids_(layout.meshes.size()), facets_(layout.facets), pieces_(layout.pieces) {
+    : dimensions_(dimensions),
+      look_off_(look_off * layout.spacing),
+      by_(layout.meshes.size()),
+      solids_(layout.meshes.size()),
+      facets_(layout.facets),
+      pieces_(layout.pieces) {
   for (const auto& [owner, other] : layout.intruding) {
     by_[owner].push_back(other);
     if (!solids_[other]) solids_[other].emplace(layout.meshes[other]);

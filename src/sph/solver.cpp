@@ -25,8 +25,7 @@ std::unique_ptr<Solver> make_solver(const compute::Device& device, const Case& s
                                     const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
   const bool single = settled_case.numerics.precision == Precision::single;
   check_size(device.info(), layout.particles.size(), single ? sizeof(float) : sizeof(double));
-  if (single)
-    return std::make_unique<SphSolver<float>>(device, settled_case, layout, discretisation, centres);
+  if (single) return std::make_unique<SphSolver<float>>(device, settled_case, layout, discretisation, centres);
   if (!device.info().has_double)
     throw Error("numerics/precision is double, but the device " + device.info().describe() +
                 " has no double precision: choose single or another device.");

@@ -22,8 +22,8 @@ struct SolverKernels {
 
   SweepKernel continuity, momentum, gradient, loads, packing, points, surface, crowding, guard, wall_forces, facing_walls;
   compute::Kernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
-  compute::Kernel watch_chunks, watch_groups, watch_total, guard_chunks, guard_totals, energy_chunks, packing_chunks, sum_rows, wrench_chunks,
-      wrench_totals, facing_chunks, facing_totals;
+  compute::Kernel watch_chunks, watch_groups, watch_total, guard_chunks, guard_totals, energy_chunks, packing_chunks, sum_rows,
+      wrench_chunks, wrench_totals, facing_chunks, facing_totals;
 };
 
 }  // namespace wavetank

@@ -299,7 +299,8 @@ void SphSolver<Real>::go_on_trial(Slot, bool first, double weight, double part) 
 
 template <class Real>
 void SphSolver<Real>::take_sum(double weight) {
-  kernels_.take_sum.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_, static_cast<Real>(weight));
+  kernels_.take_sum.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_,
+                           static_cast<Real>(weight));
 }
 
 template <class Real>

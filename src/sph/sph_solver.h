@@ -121,14 +121,14 @@ class SphSolver final : public Solver, private StepEngine {
   GridShape grid_shape_;
   WallMover* mover_ = nullptr;  ///< during a step
   double time_step_limit_ = std::numeric_limits<double>::infinity();
-  double step_ = 0;             ///< the next step, or the one in progress, s
-  double greatest_speed_ = 0;   ///< of a particle at the end of the last step, m/s
-  double greatest_acceleration_ = 0;  ///< likewise, m/s²
+  double step_ = 0;                        ///< the next step, or the one in progress, s
+  double greatest_speed_ = 0;              ///< of a particle at the end of the last step, m/s
+  double greatest_acceleration_ = 0;       ///< likewise, m/s²
   std::vector<WallWrench> step_wrenches_;  ///< on the coupled owners, as far as they were added up
-  bool load_lost_ = false;      ///< in this step, to values that are not finite
-  double fastest_wall_ = 0;     ///< of any point of a body, m/s
-  Eigen::Vector3d up_;          ///< along which the start is hydrostatic
-  std::vector<double> levels_;  ///< by particle id, for that: heights along `up_`
+  bool load_lost_ = false;                 ///< in this step, to values that are not finite
+  double fastest_wall_ = 0;                ///< of any point of a body, m/s
+  Eigen::Vector3d up_;                     ///< along which the start is hydrostatic
+  std::vector<double> levels_;             ///< by particle id, for that: heights along `up_`
   Buffer state_, rates_, gradient_;
   Buffer half_;  ///< the trial state of the step, its middle or end; then what the state is sorted into
   Buffer sum_;   ///< of weighted rates, for integrators that have one

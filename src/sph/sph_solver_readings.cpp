@@ -109,8 +109,9 @@ FluidState SphSolver<Real>::download() {
 /// Built when it is asked for: no simulation needs it.
 template <class Real>
 PairCount SphSolver<Real>::count_pairs() {
-  const SweepKernel kernel{compute::Program(device_, sources_, "pairs.cl", text_of(options_) + tiling_.particles.build_options()).kernel("pairs"),
-                           tiling_.particles.own};
+  const SweepKernel kernel{
+      compute::Program(device_, sources_, "pairs.cl", text_of(options_) + tiling_.particles.build_options()).kernel("pairs"),
+      tiling_.particles.own};
   compute::Buffer<int> counts(device_, 2 * static_cast<std::size_t>(count_));
   sweep(kernel, count_, state_, walls_, counts);
   const std::vector<int> values = counts.download();

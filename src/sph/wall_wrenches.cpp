@@ -23,8 +23,7 @@ Box moved(const Box& box, const WallPose& pose) {
 
 template <class Real>
 WallWrenches<Real>::WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid,
-                                 const std::vector<Box>& boxes, const std::vector<WallElement>& pieces, bool everywhere,
-                                 double drift)
+                                 const std::vector<Box>& boxes, const std::vector<WallElement>& pieces, bool everywhere, double drift)
     : device_(device),
       discretisation_(discretisation),
       grid_(grid),

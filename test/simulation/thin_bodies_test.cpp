@@ -75,8 +75,8 @@ TEST_F(ThinBodies, BarsFeelArchimedesForce) {
   }
 }
 
-/// At spacings of which the wedge of 15° is 2.3 to 5.4 thick, and down to nearly nothing at its tip, its back thinner than the support and not; the coarsest
-/// are nearer to the floor than the support.
+/// At spacings of which the wedge of 15° is 2.3 to 5.4 thick, and down to nearly nothing at its tip, its back thinner than the support and
+/// not; the coarsest are nearer to the floor than the support.
 TEST_F(ThinBodies, WedgesFeelArchimedesForce) {
   for (const double degrees : {15.0, 27.0}) {
     const double height = 0.3 * std::tan(degrees * M_PI / 180);
@@ -86,7 +86,8 @@ TEST_F(ThinBodies, WedgesFeelArchimedesForce) {
     mesh.translation = Vector3d(0.25, 0, 0.1);
     // `scripts/validate reported` asks for all
     const bool all = std::getenv("WAVETANK_LONG_TESTS") != nullptr;
-    for (const double spacing : all ? std::vector<double>{0.035, 0.03, 0.025, 0.022, 0.018, 0.015} : std::vector<double>{0.03, 0.022, 0.018}) {
+    for (const double spacing :
+         all ? std::vector<double>{0.035, 0.03, 0.025, 0.022, 0.018, 0.015} : std::vector<double>{0.03, 0.022, 0.018}) {
       const std::string name = "wedge of " + std::to_string(static_cast<int>(degrees)) + " degrees at " + std::to_string(spacing) + " m";
       rests(name.c_str(), tank_with({"wedge", mesh}, spacing), 0.5 * 0.3 * height, 0.08);
     }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "../../src/sph/integrators/integrator.h"
-#include "wavetank/common/error.h"
 #include "../common/error_of.h"
+#include "wavetank/common/error.h"
 #include "wavetank/sph/schedule_page.h"
 
 namespace wavetank {
@@ -37,9 +37,7 @@ TEST(Schedule, RefusesWhatASortHasLeftBehind) {
             "integrator dummy: the next step reads rate (now), which stage 'sort' has left in the order of before.");
 }
 
-TEST(Schedule, TakesWhatIsSound) {
-  EXPECT_NO_THROW(dummy(at("now", {"position"}), at("now", {"rate"}), at("now", {"position"})).check());
-}
+TEST(Schedule, TakesWhatIsSound) { EXPECT_NO_THROW(dummy(at("now", {"position"}), at("now", {"rate"}), at("now", {"position"})).check()); }
 
 TEST(Schedule, RunsItsStagesInTheirOrder) {
   std::string order;

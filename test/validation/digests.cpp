@@ -1,5 +1,6 @@
-// digests: what twelve small cases are after 200 steps, to the bit, one line each. Two versions of the solver that print the same compute the same
-// (scripts/same_bits). 2-D and 3-D, three kinds of walls, two density diffusions; with a paddle that moves and a float that is moved by the water.
+// digests: what twelve small cases are after 200 steps, to the bit, one line each. Two versions of the solver that print the same compute
+// the same (scripts/same_bits). 2-D and 3-D, three kinds of walls, two density diffusions; with a paddle that moves and a float that is
+// moved by the water.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -74,10 +75,12 @@ void print_digests(const std::string& name, const Case& scene) {
   const double time = simulation.state().time;
   Digest clock;
   clock.add(&time, sizeof time);
-  std::printf("%-46s %zu particles, t %.6f s: time %016llx position %016llx velocity %016llx pressure %016llx density %016llx γ %016llx surface %016llx wrenches %016llx\n",
-              name.c_str(), order.size(), time, clock.value(), digest_of(cloud.position, order), digest_of(cloud.velocity, order),
-              digest_of(cloud.pressure, order), digest_of(cloud.density, order), digest_of(cloud.shepard, order),
-              digest_of(cloud.surface, order), wrenches.value());
+  std::printf(
+      "%-46s %zu particles, t %.6f s: time %016llx position %016llx velocity %016llx pressure %016llx density %016llx γ %016llx surface "
+      "%016llx wrenches %016llx\n",
+      name.c_str(), order.size(), time, clock.value(), digest_of(cloud.position, order), digest_of(cloud.velocity, order),
+      digest_of(cloud.pressure, order), digest_of(cloud.density, order), digest_of(cloud.shepard, order), digest_of(cloud.surface, order),
+      wrenches.value());
   std::fflush(stdout);
 }
 
@@ -92,7 +95,8 @@ void run() {
         Case scene = dam_break(dimensions);
         scene.numerics.walls.elements = elements;
         scene.numerics.density_diffusion = diffusion;
-        std::string name = std::to_string(dimensions) + "-D, " + wall + (diffusion == DensityDiffusion::fourtakas ? ", fourtakas" : ", antuono");
+        std::string name =
+            std::to_string(dimensions) + "-D, " + wall + (diffusion == DensityDiffusion::fourtakas ? ", fourtakas" : ", antuono");
         if (dimensions == 2 && elements == WallElements::facet && diffusion == DensityDiffusion::fourtakas) {
           add_paddle(scene);
           name += ", a paddle";

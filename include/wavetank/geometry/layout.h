@@ -65,9 +65,9 @@ struct Layout {
 /// gravity along an axis. Under the face of a box that is not level it is so along the axis nearest to gravity's. Walls that the fluid
 /// cannot reach have no elements: a tank's outer skin, the bottom of a box that stands on the floor, and the floor under it, where elements
 /// that the box covers partly are clipped at its sides. A body that moves has the outside of itself and
-/// what is fixed to it, and hides nothing of other walls; where it may move into another body the facets of both have pieces, see `intruding`. Throws
-/// Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger than the tank, a body of
-/// a mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
+/// what is fixed to it, and hides nothing of other walls; where it may move into another body the facets of both have pieces, see
+/// `intruding`. Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger than
+/// the tank, a body of a mesh ten times as large as it, and a probe in a body or outside the tank. Meshes of doubtful size are named.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});
 
 }  // namespace wavetank

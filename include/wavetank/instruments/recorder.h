@@ -45,9 +45,9 @@ class Recorder {
     std::function<Values(Solver&)> read;
     std::function<void(double time, const Values&)> record;
     Values before{};
-    bool due = false;           ///< its next sample lies in the present step
-    Values after{};             ///< read at the end of a step, which is the beginning of the next one
-    double after_time = -1;     ///< s, of that; none if negative
+    bool due = false;        ///< its next sample lies in the present step
+    Values after{};          ///< read at the end of a step, which is the beginning of the next one
+    double after_time = -1;  ///< s, of that; none if negative
   };
 
   /// Where the probes are now, in the tank.

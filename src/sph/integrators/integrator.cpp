@@ -10,9 +10,12 @@ std::vector<Access> state_of(const std::string& instant) {
 
 Schedule schedule_of(Integrator integrator, StepEngine* engine) {
   switch (integrator) {
-    case Integrator::runge_kutta_4: return runge_kutta_4(engine);
-    case Integrator::predictor_corrector: return predictor_corrector(engine);
-    case Integrator::symplectic: break;
+    case Integrator::runge_kutta_4:
+      return runge_kutta_4(engine);
+    case Integrator::predictor_corrector:
+      return predictor_corrector(engine);
+    case Integrator::symplectic:
+      break;
   }
   return symplectic(engine);
 }

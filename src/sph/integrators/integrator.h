@@ -8,8 +8,8 @@ namespace wavetank {
 /// Where a solver keeps a state of the particles during a step: the one that lasts, and one that is only of this step.
 enum class Slot { now, trial };
 
-/// What a solver can do within a time step Δt: what integrators are made of. `rates` are those of u, s = ρ/ρ₀ − 1 and the steady part of the
-/// density diffusion; x changes by u.
+/// What a solver can do within a time step Δt: what integrators are made of. `rates` are those of u, s = ρ/ρ₀ − 1 and the steady part of
+/// the density diffusion; x changes by u.
 class StepEngine {
  public:
   virtual ~StepEngine() = default;

@@ -21,26 +21,24 @@ Schedule runge_kutta_4(StepEngine* engine) {
   const auto trial = [&](const std::string& name, const std::string& of, bool first, double weight, double part) {
     const Slot slot = first ? Slot::now : Slot::trial;
     return Stage{name,
-                 state_of("now") + at(of, rates) + at(of, {"velocity"}) + at("step", first ? std::vector<std::string>() : std::vector<std::string>{"sum of rates"}),
+                 state_of("now") + at(of, rates) + at(of, {"velocity"}) +
+                     at("step", first ? std::vector<std::string>() : std::vector<std::string>{"sum of rates"}),
                  state_of("trial") + at("step", {"sum of rates"}),
-                 [engine, slot, first, weight, part] { engine->go_on_trial(slot, first, weight, part); },
-                 part};
+                 [engine, slot, first, weight, part] { engine->go_on_trial(slot, first, weight, part); }, part};
   };
   const auto walls = [&](const std::string& name, double fraction) {
     return Stage{name, {}, at("trial", {"walls"}), [engine, fraction] { engine->walls_at(fraction); }};
   };
   return {"runge_kutta_4",
           state_of("now") + at("now", {"walls"}),
-          {{"rates of the start",
-            state_of("now") + at("now", {"walls"}),
+          {{"rates of the start", state_of("now") + at("now", {"walls"}),
             at("now", {"acceleration", "compression rate"}) + at("step", {"wrenches"}),
             [engine] {
               engine->find_accelerations(Slot::now);
               engine->find_compression_rates(Slot::now);
               engine->add_wrenches(Slot::now, 1.0 / 6);
             },
-            0,
-            true},
+            0, true},
            trial("to the middle with k1", "now", true, 1.0 / 6, 0.5),
            walls("walls to the middle", 0.5),
            stage("rates of the middle, k2", 0.5, 2.0 / 6),
@@ -50,16 +48,10 @@ Schedule runge_kutta_4(StepEngine* engine) {
            walls("walls to where the end is expected", 1.0),
            stage("rates of the end, k4", 1.0, 1.0 / 6),
            {"walls to the end", at("step", {"wrenches"}), at("now", {"walls"}), [engine] { engine->walls_to_end(); }},
-           {"to the end",
-            state_of("now") + at("step", {"sum of rates"}) + at("trial", {"velocity", "acceleration", "compression rate"}),
-            state_of("now") + at("start", {"position"}),
-            [engine] { engine->take_sum(1.0 / 6); },
-            1},
-           {"guard",
-            at("now", {"position", "velocity", "walls"}) + at("start", {"position"}) + at("trial", {"clearance"}),
-            at("now", {"position", "velocity"}),
-            [engine] { engine->guard(); },
-            1},
+           {"to the end", state_of("now") + at("step", {"sum of rates"}) + at("trial", {"velocity", "acceleration", "compression rate"}),
+            state_of("now") + at("start", {"position"}), [engine] { engine->take_sum(1.0 / 6); }, 1},
+           {"guard", at("now", {"position", "velocity", "walls"}) + at("start", {"position"}) + at("trial", {"clearance"}),
+            at("now", {"position", "velocity"}), [engine] { engine->guard(); }, 1},
            {"neighbour grid", state_of("now"), state_of("now") + at("now", {"walls"}), [engine] { engine->sort(); }, 0, false, true}}};
 }
 

@@ -16,8 +16,7 @@ std::string text_of(const Access& access) { return access.array + " (" + access.
 std::string text_of(const std::vector<Access>& accesses) {
   std::vector<std::pair<std::string, std::string>> by_instant;
   for (const Access& access : accesses) {
-    const auto found =
-        std::find_if(by_instant.begin(), by_instant.end(), [&](const auto& entry) { return entry.first == access.instant; });
+    const auto found = std::find_if(by_instant.begin(), by_instant.end(), [&](const auto& entry) { return entry.first == access.instant; });
     if (found == by_instant.end())
       by_instant.emplace_back(access.instant, access.array);
     else
