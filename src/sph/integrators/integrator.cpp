@@ -8,6 +8,15 @@ std::vector<Access> state_of(const std::string& instant) {
   return at(instant, {"position", "velocity", "compression", "steady diffusion", "pressure", "volume"});
 }
 
+Stage guard_stage(StepEngine* engine, const std::vector<Access>& came) {
+  return {"guard", at("now", {"position", "velocity", "walls"}) + came, at("now", {"position", "velocity"}), [engine] { engine->guard(); },
+          1};
+}
+
+Stage sort_stage(StepEngine* engine) {
+  return {"neighbour grid", state_of("now"), state_of("now") + at("now", {"walls"}), [engine] { engine->sort(); }, 0, false, true};
+}
+
 Schedule schedule_of(Integrator integrator, StepEngine* engine) {
   switch (integrator) {
     case Integrator::runge_kutta_4:

@@ -46,6 +46,10 @@ class StepEngine {
   virtual void correct_end() = 0;
 };
 
+/// Stages that every integrator has: the guard, which also reads how the particles came, and the sort.
+Stage guard_stage(StepEngine* engine, const std::vector<Access>& came);
+Stage sort_stage(StepEngine* engine);
+
 /// One page each. `engine` may be null in a schedule that is not run.
 Schedule symplectic(StepEngine* engine);
 Schedule runge_kutta_4(StepEngine* engine);

@@ -31,9 +31,8 @@ Schedule predictor_corrector(StepEngine* engine) {
            {"walls to the end", at("step", {"wrenches"}), at("now", {"walls"}), [engine] { engine->walls_to_end(); }},
            {"correction", state_of("now") + at("step", {"sum of rates"}) + at("end", {"acceleration", "compression rate", "position"}),
             state_of("now") + at("start", {"position"}), [engine] { engine->correct_end(); }, 1},
-           {"guard", at("now", {"position", "velocity", "walls"}) + at("start", {"position"}) + at("end", {"clearance"}),
-            at("now", {"position", "velocity"}), [engine] { engine->guard(); }, 1},
-           {"neighbour grid", state_of("now"), state_of("now") + at("now", {"walls"}), [engine] { engine->sort(); }, 0, false, true}}};
+           guard_stage(engine, at("start", {"position"}) + at("end", {"clearance"})),
+           sort_stage(engine)}};
 }
 
 }  // namespace wavetank

@@ -50,9 +50,8 @@ Schedule runge_kutta_4(StepEngine* engine) {
            {"walls to the end", at("step", {"wrenches"}), at("now", {"walls"}), [engine] { engine->walls_to_end(); }},
            {"to the end", state_of("now") + at("step", {"sum of rates"}) + at("trial", {"velocity", "acceleration", "compression rate"}),
             state_of("now") + at("start", {"position"}), [engine] { engine->take_sum(1.0 / 6); }, 1},
-           {"guard", at("now", {"position", "velocity", "walls"}) + at("start", {"position"}) + at("trial", {"clearance"}),
-            at("now", {"position", "velocity"}), [engine] { engine->guard(); }, 1},
-           {"neighbour grid", state_of("now"), state_of("now") + at("now", {"walls"}), [engine] { engine->sort(); }, 0, false, true}}};
+           guard_stage(engine, at("start", {"position"}) + at("trial", {"clearance"})),
+           sort_stage(engine)}};
 }
 
 }  // namespace wavetank

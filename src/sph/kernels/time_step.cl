@@ -151,10 +151,13 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
   finish_trial(p, now, trial, stride, i, now[FIELD_COMPRESSION * stride + i] + step * compression, now[FIELD_STEADY * stride + i] + step * steady);
 }
 
-// What the guard and the next step need of a step that began at the given place and goes to the end with these sums. What was found of the walls' distance
-// at the trial state's place counts from the start.
+// The rest of a step that began at the given place: compression and steady part by the sum and the weighted rates of the trial state, and what the guard and
+// the next step need. What was found of the walls' distance at the trial state's place counts from the start.
 INLINE void end_step(__constant const parameters_t* p, __global real* now, __global real* trial, int stride, int i, __global real* rates, const real* start,
-                     real compression, real steady) {
+                     real step, __global const real* sum, real weight) {
+  const real compression =
+      now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + weight * rates[RATE_COMPRESSION * stride + i]);
+  const real steady = now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + weight * rates[RATE_STEADY * stride + i]);
   real way = R(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const real back = trial[(FIELD_X + axis) * stride + i] - start[axis];
@@ -183,9 +186,7 @@ __kernel void take_sum(__constant const parameters_t* p, int count, __global rea
     move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * speed));
     now[(FIELD_U + axis) * stride + i] += step * (sum[(SUM_U + axis) * stride + i] + weight * acceleration);
   }
-  end_step(p, now, trial, stride, i, rates, start,
-           now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + weight * rates[RATE_COMPRESSION * stride + i]),
-           now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + weight * rates[RATE_STEADY * stride + i]));
+  end_step(p, now, trial, stride, i, rates, start, step, sum, weight);
 }
 
 // trial: u* = u + Δt f*, x* = x + Δt u*, s* = s + Δt r*; half of the rates go into the sum.
@@ -222,9 +223,7 @@ __kernel void correct_end(__constant const parameters_t* p, int count, __global 
     now[(FIELD_U + axis) * stride + i] = after;
     move(now, stride, axis, i, R(0.5) * step * (before + after));
   }
-  end_step(p, now, trial, stride, i, rates, start,
-           now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + R(0.5) * rates[RATE_COMPRESSION * stride + i]),
-           now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + R(0.5) * rates[RATE_STEADY * stride + i]));
+  end_step(p, now, trial, stride, i, rates, start, step, sum, R(0.5));
 }
 
 // One iteration of packing: the rates hold displacements.
