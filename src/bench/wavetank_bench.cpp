@@ -1,12 +1,12 @@
 // Measures how fast this machine simulates stock cases: everything but the process's own affairs is in BenchRun.
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
 #include "bench_options.h"
 #include "bench_run.h"
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
 
@@ -19,12 +19,6 @@ constexpr int exit_error = 2;
 constexpr int exit_signal = 128;  // plus the signal's number, as shells have it
 
 std::atomic<int> caught_signal{0};
-static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-extern "C" void on_signal(int signal_number) {
-  caught_signal = signal_number;
-  std::signal(signal_number, SIG_DFL);  // a second one ends the process at once
-}
 
 void log_warnings(LogLevel level, const std::string& line) {
   if (level != LogLevel::info) std::fprintf(stderr, "wavetank_bench: warning: %s\n", line.c_str());
@@ -42,9 +36,8 @@ void print_start_up(const BenchOptions& options) {
 int run(const BenchOptions& options) {
   const std::vector<BenchCase> cases = chosen_cases(options.filters);
   if (!options.json.empty()) check_writable(options.json, "the report");
+  const EndingSignals signals([](int number) { caught_signal = number; });
   const compute::DeviceInfo device = compute::choose_device(options.device);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const Report report = BenchRun(options, device, program, [] { return caught_signal != 0; }).run(cases);
   std::printf("%s", table_of(report).c_str());

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/node/parameters.h"
@@ -35,7 +36,8 @@ void log_to_ros(wavetank::LogLevel level, const std::string& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "wavetank");
+  const wavetank::EndingSignals signals([](int) { ros::requestShutdown(); });
+  ros::init(argc, argv, "wavetank", ros::init_options::NoSigintHandler);
   for (int i = 1; i < argc; ++i) {
     const bool version = std::strcmp(argv[i], "--version") == 0;
     if (version) std::printf("wavetank %s\n", wavetank::version());

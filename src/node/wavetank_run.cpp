@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/node/bag_run.h"
@@ -22,12 +23,6 @@ constexpr int exit_violation = 3;
 constexpr int exit_signal = 128;  // plus the signal's number, as shells have it
 
 std::atomic<int> caught_signal{0};
-static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-extern "C" void on_signal(int signal_number) {
-  caught_signal = signal_number;
-  std::signal(signal_number, SIG_DFL);  // a second one ends the process at once
-}
 
 bool is_quiet = false;
 
@@ -59,8 +54,7 @@ void print_schedule(const RunOptions& options) {
 }
 
 int run(const RunOptions& options) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const EndingSignals signals([](int number) { caught_signal = number; });
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   BagRun bag_run(options, caught_signal);
   switch (bag_run.run()) {

@@ -57,9 +57,15 @@ class ProgramTest(unittest.TestCase):
             **options
         )
 
-    def start_program(self, *arguments):
+    def start_program(self, *arguments, **options):
         process = subprocess.Popen(
-            [PROGRAM] + list(arguments), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, bufsize=1
+            [PROGRAM] + list(arguments),
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            bufsize=1,
+            **options
         )
 
         def end():

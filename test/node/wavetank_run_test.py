@@ -5,6 +5,7 @@ import glob
 import os
 import re
 import resource
+import shutil
 import signal
 import socket
 import stat
@@ -262,6 +263,22 @@ class Endings(ProgramTest):
         interrupt(process)
         self.assertEqual(process.wait(timeout=30), 130)
         self.assertEqual(self.files(), ["case.yaml"])
+
+    def test_ctrl_c_while_kernels_are_compiled_leaves_nothing(self):
+        # a compiler behind OpenCL that hears the signal itself removes what it is writing, and fails
+        for attempt in range(3):
+            with self.subTest(attempt=attempt):
+                cache = os.path.join(self.folder, "cache")
+                environment = dict(os.environ, XDG_CACHE_HOME=cache)
+                process = self.start_program(self.case(), "--bag", "out.bag", env=environment)
+                deadline = time.time() + 60
+                while not glob.glob(cache + "/**/*.cl.tmp", recursive=True) and process.poll() is None and time.time() < deadline:
+                    pass
+                time.sleep(0.1 * attempt)
+                interrupt(process)
+                self.assertEqual(process.wait(timeout=60), 130, process.stderr.read())
+                shutil.rmtree(cache)
+                self.assertEqual(self.files(), ["case.yaml"])
 
     def test_a_violation_ends_the_bag_and_writes_a_snapshot(self):
         # A speed of sound far below the fall's own speed: the watchdog's bound of half of it is passed at once.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+namespace wavetank {
+
+/// Ctrl-C (SIGINT) and SIGTERM as a request to end, without a signal handler. A handler would not last: compilers behind OpenCL install
+/// their own while they work, delete the files that they are writing and so fail in the middle of a start that should end cleanly.
+/// Instead both signals are blocked and awaited by a thread. The first is reported; a second one ends the process at once.
+class EndingSignals {
+ public:
+  /// Blocks both signals in the calling thread and in those, and in the processes, that it starts from now on: to be made before any
+  /// other thread. `on_first` is called with the first signal's number, on a thread of its own.
+  explicit EndingSignals(std::function<void(int)> on_first);
+
+  /// The calling thread, which must be the one that made this, hears signals as before.
+  ~EndingSignals();
+
+  EndingSignals(const EndingSignals&) = delete;
+  EndingSignals& operator=(const EndingSignals&) = delete;
+
+ private:
+  void wait();
+
+  std::function<void(int)> on_first_;
+  std::atomic<bool> is_over_{false};
+  sigset_t before_{};
+  sigset_t awaited_{};
+  std::thread thread_;
+};
+
+}  // namespace wavetank

@@ -1,0 +1,40 @@
+#include "wavetank/common/ending_signals.h"
+
+#include <pthread.h>
+
+#include <utility>
+
+namespace wavetank {
+
+EndingSignals::EndingSignals(std::function<void(int)> on_first) : on_first_(std::move(on_first)) {
+  sigemptyset(&awaited_);
+  sigaddset(&awaited_, SIGINT);
+  sigaddset(&awaited_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &awaited_, &before_);
+  thread_ = std::thread([this] { wait(); });
+}
+
+EndingSignals::~EndingSignals() {
+  is_over_ = true;
+  pthread_kill(thread_.native_handle(), SIGTERM);  // to that thread alone: it wakes up and finds that it is over
+  thread_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void EndingSignals::wait() {
+  bool is_first = true;
+  while (true) {
+    int number = 0;
+    if (sigwait(&awaited_, &number) != 0) continue;
+    if (is_over_) return;
+    if (is_first) on_first_(number);
+    if (!is_first) {
+      std::signal(number, SIG_DFL);
+      pthread_sigmask(SIG_UNBLOCK, &awaited_, nullptr);
+      std::raise(number);
+    }
+    is_first = false;
+  }
+}
+
+}  // namespace wavetank
