@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "program_state.h"
+#include "signature.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank::compute {
@@ -12,11 +13,30 @@ constexpr std::size_t gpu_group_size = 128;
 
 std::string argument_text(unsigned count) { return std::to_string(count) + (count == 1 ? " argument" : " arguments"); }
 
+std::string kernel_names(cl_program program) {
+  std::size_t size = 0;
+  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
+  std::string names(size, '\0');
+  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, size, &names[0], nullptr) != CL_SUCCESS) return "";
+  std::string listed;
+  for (const char* c = names.c_str(); *c != '\0'; ++c) listed += *c == ';' ? std::string(", ") : std::string(1, *c);
+  return listed;
+}
+
 }  // namespace
 
-Kernel::State::State(std::shared_ptr<Program::State> of, const std::string& kernel_name) : program(std::move(of)), name(kernel_name) {
+Kernel::State::State(std::shared_ptr<Program::State> of, const std::string& kernel_name) : program(std::move(of)), name(kernel_name) {}
+
+void Kernel::State::prepare() {
+  if (handle != nullptr) return;
+  const cl_program built = program->built();
   cl_int code = CL_SUCCESS;
-  handle = clCreateKernel(program->handle, name.c_str(), &code);
+  handle = clCreateKernel(built, name.c_str(), &code);
+  if (code != CL_SUCCESS) {
+    const std::string names = kernel_names(built);
+    if ((", " + names + ",").find(", " + name + ",") == std::string::npos)
+      throw Error(program->main + " has no kernel \"" + name + "\"; it has: " + (names.empty() ? "none" : names));
+  }
   check(code, "clCreateKernel", info(), [&] { return "making the kernel " + name; });
   clGetKernelInfo(handle, CL_KERNEL_NUM_ARGS, sizeof argument_count, &argument_count, nullptr);
   const cl_device_id device = program->device->id;
@@ -46,6 +66,13 @@ void Kernel::State::run(std::size_t items, std::size_t group) const {
   if (event != nullptr) device.add_launch(name, event);
 }
 
+const std::string& Kernel::name() const {
+  if (!state_) throw Error("a kernel was asked for its name that belongs to no program");
+  return state_->name;
+}
+
+std::vector<Parameter> Kernel::parameters() const { return signature_of(state_->program->source, name()); }
+
 void Kernel::set_memory(unsigned index, const Memory& memory) const {
   const cl_mem handle = static_cast<cl_mem>(memory.handle());
   if (!state_) throw Error("a kernel was launched that belongs to no program");
@@ -56,6 +83,7 @@ void Kernel::set_memory(unsigned index, const Memory& memory) const {
 
 void Kernel::set_bytes(unsigned index, const void* bytes, std::size_t size) const {
   if (!state_) throw Error("a kernel was launched that belongs to no program");
+  state_->prepare();
   if (index >= state_->argument_count) return;  // the count is checked, and said, once all are known
   const cl_int code = clSetKernelArg(state_->handle, index, size, bytes);
   if (code == CL_SUCCESS) return;
@@ -67,6 +95,7 @@ void Kernel::set_bytes(unsigned index, const void* bytes, std::size_t size) cons
 
 void Kernel::enqueue(std::size_t items, unsigned argument_count) const {
   if (!state_) throw Error("a kernel was launched that belongs to no program");
+  state_->prepare();
   state_->check_count(argument_count);
   if (items == 0) return;
   const std::size_t group = state_->group_size;
@@ -75,6 +104,7 @@ void Kernel::enqueue(std::size_t items, unsigned argument_count) const {
 
 void Kernel::enqueue_groups(std::size_t groups, std::size_t group_size, unsigned argument_count) const {
   if (!state_) throw Error("a kernel was launched that belongs to no program");
+  state_->prepare();
   state_->check_count(argument_count);
   if (groups == 0) return;
   if (group_size == 0 || group_size > state_->max_group_size)

@@ -34,41 +34,39 @@ std::string build_log(cl_program program, cl_device_id device) {
   return log.data();
 }
 
-std::string kernel_names(cl_program program) {
-  std::size_t size = 0;
-  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
-  std::string names(size, '\0');
-  if (clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, size, &names[0], nullptr) != CL_SUCCESS) return "";
-  std::string listed;
-  for (const char* c = names.c_str(); *c != '\0'; ++c) listed += *c == ';' ? std::string(", ") : std::string(1, *c);
-  return listed;
-}
-
 }  // namespace
 
-Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& files, const std::string& main_file, const std::string& given)
-    : device(std::move(on)), main(main_file) {
-  const std::string source = resolve_includes(files, main);
-  const std::string options = options_that_matter(given, source);
+Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& sources, const std::string& main_file, const std::string& given)
+    : device(std::move(on)),
+      main(main_file),
+      source(resolve_includes(sources, main)),
+      files(sources),
+      options(options_that_matter(given, source)) {}
+
+Program::State::~State() {
+  if (handle != nullptr) clReleaseProgram(handle);
+}
+
+cl_program Program::State::built() {
+  const std::lock_guard<std::mutex> lock(device->programs_mutex);
+  if (handle != nullptr) return handle;
   const std::string directory = cache_directory_for(device->info);
   const Hash key = key_of(*device, source, options);
-  const std::lock_guard<std::mutex> lock(device->programs_mutex);
   const auto known = device->programs.find(key.value());
   if (known != device->programs.end()) {
     handle = known->second;
   } else {
-    if (directory.empty() || !build_from_binary(load_binary(directory, key), options)) {
-      build_from_source(files, source, options);
+    if (directory.empty() || !build_from_binary(load_binary(directory, key))) {
+      build_from_source();
       if (!directory.empty()) store_binary(directory, key, binary());
     }
     device->programs.emplace(key.value(), handle);
   }
   clRetainProgram(handle);  // once for the device, which keeps it for those to come
+  return handle;
 }
 
-Program::State::~State() { clReleaseProgram(handle); }
-
-bool Program::State::build_from_binary(const std::vector<unsigned char>& binary, const std::string& options) {
+bool Program::State::build_from_binary(const std::vector<unsigned char>& binary) {
   if (binary.empty()) return false;
   const unsigned char* bytes = binary.data();
   const std::size_t size = binary.size();
@@ -82,7 +80,7 @@ bool Program::State::build_from_binary(const std::vector<unsigned char>& binary,
   return false;
 }
 
-void Program::State::build_from_source(const SourceFiles& files, const std::string& source, const std::string& options) {
+void Program::State::build_from_source() {
   const DeviceInfo& info = device->info;
   const char* text = source.c_str();
   const std::size_t size = source.size();
@@ -93,6 +91,7 @@ void Program::State::build_from_source(const SourceFiles& files, const std::stri
   if (code == CL_SUCCESS) return;
   const std::string log = build_log(handle, device->id);
   clReleaseProgram(handle);
+  handle = nullptr;
   if (code == CL_INVALID_BUILD_OPTIONS) throw Error(info.name + " does not take the build options \"" + options + "\" for " + main);
   if (code != CL_BUILD_PROGRAM_FAILURE && log.empty()) fail(code, "clBuildProgram", info, "compiling " + main);
   throw Error("the compiler of " + info.name + " refused " + main + " with the options \"" + options +
@@ -108,19 +107,16 @@ std::vector<unsigned char> Program::State::binary() const {
   return bytes;
 }
 
-Program::Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options)
-    : state_(std::make_shared<State>(device.state(), files, main, options)) {}
+Program::Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options, Build when)
+    : state_(std::make_shared<State>(device.state(), files, main, options)) {
+  if (when == Build::now) state_->built();
+}
 
 Kernel Program::kernel(const std::string& name) const {
   if (!state_) throw Error("the kernel " + name + " was asked of a program that has not been built");
   Kernel kernel;
-  try {
-    kernel.state_ = std::make_shared<Kernel::State>(state_, name);
-  } catch (const Error&) {
-    const std::string names = kernel_names(state_->handle);
-    if ((", " + names + ",").find(", " + name + ",") != std::string::npos) throw;
-    throw Error(state_->main + " has no kernel \"" + name + "\"; it has: " + (names.empty() ? "none" : names));
-  }
+  kernel.state_ = std::make_shared<Kernel::State>(state_, name);
+  if (state_->is_built()) kernel.state_->prepare();
   return kernel;
 }
 

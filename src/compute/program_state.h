@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "device_state.h"
 #include "wavetank/compute/program.h"
@@ -14,15 +15,23 @@ struct Program::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
+  /// Builds it, unless that has been done.
+  cl_program built();
+  bool is_built() const { return handle != nullptr; }
+
   std::shared_ptr<Device::State> device;
-  std::string main;  ///< the main file's name, for messages
-  cl_program handle = nullptr;
+  std::string main;    ///< the main file's name, for messages
+  std::string source;  ///< with its includes
 
  private:
-  void build_from_source(const SourceFiles& files, const std::string& source, const std::string& options);
+  void build_from_source();
   /// False if the driver does not take the binary.
-  bool build_from_binary(const std::vector<unsigned char>& binary, const std::string& options);
+  bool build_from_binary(const std::vector<unsigned char>& binary);
   std::vector<unsigned char> binary() const;
+
+  SourceFiles files;  ///< for messages
+  std::string options;
+  cl_program handle = nullptr;
 };
 
 struct Kernel::State {
@@ -32,6 +41,8 @@ struct Kernel::State {
   State& operator=(const State&) = delete;
 
   const DeviceInfo& info() const { return program->device->info; }
+  /// Makes the kernel, and builds its program, unless that has been done.
+  void prepare();
   /// Throws Error unless the kernel takes `given` arguments.
   void check_count(unsigned given) const;
   void run(std::size_t items, std::size_t group_size) const;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 namespace wavetank {
 
@@ -53,6 +54,7 @@ FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<
   const auto of_first_owner = [&pieces](const WallElement& piece) { return piece.owner == pieces.front().owner; };
   if (std::all_of(pieces.begin(), pieces.end(), of_first_owner)) return;
   count_ = static_cast<int>(pieces.size());
+  chunks_ = chunks_of(count_);
   std::vector<Real> rest(6 * pieces.size());
   std::vector<int> owners(pieces.size());
   for (std::size_t s = 0; s < pieces.size(); ++s) {
@@ -64,6 +66,7 @@ FacingWalls<Real>::FacingWalls(const compute::Device& device, const std::vector<
   }
   rest_ = compute::Buffer<Real>(device, rest);
   spheres_ = compute::Buffer<Real>(device, spheres_about<Real>(pieces, discretisation));
+  owner_count_ = static_cast<int>(spheres_.size() / 4);
   owners_ = compute::Buffer<int>(device, owners);
   places_ = compute::Buffer<Real>(device, 3 * pieces.size());
   forces_ = compute::Buffer<Real>(device, 3 * field::facing_owners * pieces.size());
@@ -76,18 +79,30 @@ void FacingWalls<Real>::set_poses(const std::vector<WallPose>& poses) {
 }
 
 template <class Real>
-void FacingWalls<Real>::add(const SolverKernels& kernels, const Surroundings<Real>& surroundings, const compute::Buffer<Real>& state,
-                            const WallArrays<Real>& walls, int regions, const compute::Buffer<int>& region_values,
-                            compute::Buffer<Real>& totals) {
+void FacingWalls<Real>::bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& given) {
   if (count_ == 0) return;
-  surroundings.sweep(kernels.facing_walls, count_, state, walls, rest_, owners_, poses_.on_device(), static_cast<int>(spheres_.size() / 4),
-                     spheres_, places_, others_, forces_);
-  const int chunks = chunks_of(count_), items = regions * chunks;
-  const std::size_t size = 6 * static_cast<std::size_t>(items);
+  std::map<Slot, compute::Arguments> arguments = given;
+  for (auto& [slot, own] : arguments) {
+    own.value("count", count_).value("owner_count", owner_count_).memory("rest", rest_).memory("owners", std::as_const(owners_));
+    own.memory("poses", poses_.on_device()).memory("spheres", spheres_);
+    own.memory("places", places_).memory("others", others_).memory("forces", forces_);
+    sweeps_[slot] = make.over_points("facing_walls.cl", "facing_walls", own);
+  }
+  compute::Arguments reduction = arguments.begin()->second;
+  reduction.value("items", items_).value("chunks", chunks_).memory("sums", sums_);
+  chunk_kernel_ = make.exact("reduce.cl", "facing_chunks", reduction);
+  total_kernel_ = make.exact("reduce.cl", "facing_totals", reduction);
+}
+
+template <class Real>
+void FacingWalls<Real>::add(Slot state, int regions) {
+  if (count_ == 0) return;
+  sweeps_.at(state).launch(count_);
+  items_ = regions * chunks_;
+  const std::size_t size = 6 * static_cast<std::size_t>(items_);
   if (sums_.size() < size) sums_ = compute::Buffer<Real>(device_, size);
-  kernels.facing_chunks.launch(items, items, chunks, count_, region_values, surroundings.motions.on_device(), owners_, places_, others_,
-                               forces_, sums_);
-  kernels.facing_totals.launch(regions, regions, chunks, sums_, totals);
+  chunk_kernel_.launch(items_);
+  total_kernel_.launch(regions);
 }
 
 template class FacingWalls<float>;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
+#include "bound_kernels.h"
+#include "integrators/integrator.h"
 #include "moving_walls.h"
-#include "solver_kernels.h"
 #include "surroundings.h"
 
 namespace wavetank {
@@ -21,20 +23,26 @@ class FacingWalls {
 
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
-  /// Adds to the pressure forces and torques of the owners whose regions are given, `totals` as wrench_totals leaves them.
-  void add(const SolverKernels& kernels, const Surroundings<Real>& surroundings, const compute::Buffer<Real>& state,
-           const WallArrays<Real>& walls, int regions, const compute::Buffer<int>& region_values, compute::Buffer<Real>& totals);
+  /// `arguments`: of the surroundings, the state of each slot, the owners' regions and their totals. This must stay where it is from then
+  /// on.
+  void bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& arguments);
+  /// Adds to the pressure forces and torques of the owners whose regions are given, as wrench_totals leaves them.
+  void add(Slot state, int regions);
 
  private:
   compute::Device device_;
   Discretisation discretisation_;
   int count_ = 0;
+  int owner_count_ = 0;
+  int chunks_ = 0, items_ = 0;
   compute::Buffer<Real> spheres_;  ///< about each owner, at rest
   compute::Buffer<Real> rest_;     ///< centres, and areas times normals
   compute::Buffer<int> owners_;    ///< of each piece
   KeptBuffer<Real> poses_;
   compute::Buffer<Real> places_, forces_, sums_;
   compute::Buffer<int> others_;
+  std::map<Slot, BoundSweep> sweeps_;
+  compute::BoundKernel chunk_kernel_, total_kernel_;
 };
 
 }  // namespace wavetank

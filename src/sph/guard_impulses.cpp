@@ -16,14 +16,30 @@ GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, in
       chunks_(chunks_of(particles)),
       owners_(static_cast<int>(owners)),
       values_(gives ? owners * field::impulse_count : 0, 0.0),
+      value_count_(static_cast<int>(values_.size())),
       parts_(device, values_.size() * chunks_) {}
 
 template <class Real>
-void GuardImpulses<Real>::gather(const SolverKernels& kernels, const compute::Buffer<Real>& state, const compute::Buffer<Real>& motions,
-                                 compute::Buffer<Real>& report) {
-  const int count = static_cast<int>(values_.size());
-  kernels.guard_chunks.launch(chunks_, particles_, state, stride_, hits, takers, lost, owners_, motions, parts_);
-  kernels.guard_totals.launch(count, count, sums_.of(device_, kernels.sum_rows, parts_, chunks_, count), report);
+void GuardImpulses<Real>::add_to(compute::Arguments& arguments) {
+  arguments.memory("guard_hits", hits).memory("takers", takers).memory("lost", lost);
+}
+
+template <class Real>
+void GuardImpulses<Real>::bind(const KernelMaker& make, const compute::Arguments& given) {
+  compute::Arguments arguments = given;
+  add_to(arguments);
+  arguments.value("owners", owners_).value("values", value_count_).memory("impulses", parts_);
+  sums_.bind(device_, make, given, parts_, value_count_);
+  chunk_kernel_ = make.exact("reduce.cl", "guard_chunks", arguments);
+  arguments.memory("impulses", sums_.result());
+  total_kernel_ = make.exact("reduce.cl", "guard_totals", arguments);
+}
+
+template <class Real>
+void GuardImpulses<Real>::gather() {
+  chunk_kernel_.launch(chunks_);
+  sums_.sum(chunks_);
+  total_kernel_.launch(value_count_);
   gathered_ = true;
 }
 

@@ -4,7 +4,6 @@
 
 #include "kernel_parameters.h"
 #include "row_sums.h"
-#include "solver_kernels.h"
 #include "wavetank/compute/buffer.h"
 
 namespace wavetank {
@@ -16,10 +15,14 @@ class GuardImpulses {
   /// `gives`: bodies, or the tank, get what the guard takes.
   GuardImpulses(const compute::Device& device, bool gives, int particles, int stride, std::size_t owners);
 
+  /// Names what the guard writes. This must stay where it is once that is done.
+  void add_to(compute::Arguments& arguments);
+  /// `arguments`: of the state, and the step's `report`.
+  void bind(const KernelMaker& make, const compute::Arguments& arguments);
+
   bool gives() const { return gives_; }
   /// Queues the sums of what the guard has just taken, for the step's report.
-  void gather(const SolverKernels& kernels, const compute::Buffer<Real>& state, const compute::Buffer<Real>& motions,
-              compute::Buffer<Real>& report);
+  void gather();
   /// The report as it came from the device.
   void read(const std::vector<Real>& report);
   /// No hits, and nothing taken.
@@ -37,8 +40,10 @@ class GuardImpulses {
   int particles_, stride_, chunks_, owners_;
   std::vector<double> values_;
   bool gathered_ = false;  ///< and not yet read
+  int value_count_;
   compute::Buffer<Real> parts_;
   RowSums<Real> sums_;
+  compute::BoundKernel chunk_kernel_, total_kernel_;
 };
 
 }  // namespace wavetank

@@ -54,9 +54,8 @@ std::vector<Real> pose_values(const std::vector<WallPose>& poses, const Discreti
 }
 
 template <class Real>
-MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
-                               const WallArrays<Real>& walls, const std::vector<bool>& moving, const std::vector<Vector3d>& centres,
-                               const Layout& layout, const Discretisation& discretisation)
+MovingWalls<Real>::MovingWalls(const compute::Device& device, const WallArrays<Real>& walls, const std::vector<bool>& moving,
+                               const std::vector<Vector3d>& centres, const Layout& layout, const Discretisation& discretisation)
     : device_(device),
       discretisation_(discretisation),
       hidden_(std::make_shared<HiddenWalls>(layout, discretisation.dimensions)),
@@ -83,8 +82,22 @@ MovingWalls<Real>::MovingWalls(const compute::Device& device, const compute::Sou
   std::vector<int> all(walls.count);
   std::iota(all.begin(), all.end(), 0);
   from_ = compute::Buffer<int>(device, all);
-  if (walls.kind != WallKind::facets) all_ = compute::Buffer<int>(device, all);
-  place_ = compute::Program(device, files, "place_walls.cl", options).kernel("place_walls");
+  const bool elements = walls.kind != WallKind::facets;
+  if (elements) all_ = compute::Buffer<int>(device, all);
+  from_field_ = elements ? walls.stride : 1;
+  from_wall_ = elements ? 1 : walls.stride;
+  moving_count_ = static_cast<int>(moving_.size());
+  all_count_ = elements ? walls.count : 0;
+}
+
+template <class Real>
+void MovingWalls<Real>::bind(const KernelMaker& make, const compute::Arguments& given, WallArrays<Real>& walls) {
+  compute::Arguments arguments = given;
+  arguments.value("field_count", field_count_).value("from_field", from_field_).value("from_wall", from_wall_);
+  arguments.memory("from", from_).memory("kinds", kinds_).memory("poses", poses_.on_device()).memory("rest", rest_);
+  arguments.memory("fields", walls.fields);
+  place_moving_ = make.exact("place_walls.cl", "place_walls", arguments.value("count", moving_count_).memory("slots", slots_));
+  place_all_ = make.exact("place_walls.cl", "place_walls", arguments.value("count", all_count_).memory("slots", all_));
 }
 
 template <class Real>
@@ -185,11 +198,10 @@ void MovingWalls<Real>::place(WallArrays<Real>& walls, const std::vector<WallPos
 template <class Real>
 void MovingWalls<Real>::move(WallArrays<Real>& walls, const std::vector<WallPose>& poses, bool resorted) {
   if (!poses_.set(device_, pose_values<Real>(poses, discretisation_)) && !resorted) return;
-  const bool elements = walls.kind != WallKind::facets;
-  const compute::Buffer<int>& slots = resorted && elements ? all_ : slots_;
-  const int count = static_cast<int>(slots.size());
-  const int from_field = elements ? walls.stride : 1, from_wall = elements ? 1 : walls.stride;
-  place_.launch(count, count, field_count_, from_field, from_wall, slots, from_, kinds_, poses_.on_device(), rest_, walls.fields);
+  if (resorted && walls.kind != WallKind::facets)
+    place_all_.launch(all_count_);
+  else
+    place_moving_.launch(moving_count_);
 }
 
 template std::vector<float> pose_values(const std::vector<WallPose>&, const Discretisation&);

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <memory>
 
+#include "bound_kernels.h"
 #include "kept_buffer.h"
 #include "wall_arrays.h"
 #include "wall_cells.h"
-#include "wavetank/compute/program.h"
 
 namespace wavetank {
 
@@ -32,9 +32,11 @@ template <class Real>
 class MovingWalls {
  public:
   /// `walls` as at rest; of each owner, whether it moves, and the point that its poses are about.
-  MovingWalls(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, const WallArrays<Real>& walls,
-              const std::vector<bool>& moving, const std::vector<Vector3d>& centres, const Layout& layout,
-              const Discretisation& discretisation);
+  MovingWalls(const compute::Device& device, const WallArrays<Real>& walls, const std::vector<bool>& moving,
+              const std::vector<Vector3d>& centres, const Layout& layout, const Discretisation& discretisation);
+
+  /// `walls` are those that place() moves. This must stay where it is from then on.
+  void bind(const KernelMaker& make, const compute::Arguments& arguments, WallArrays<Real>& walls);
 
   /// Moves the walls that were given to the constructor; one pose an owner.
   void place(WallArrays<Real>& walls, const std::vector<WallPose>& poses);
@@ -64,7 +66,9 @@ class MovingWalls {
   compute::Buffer<Real> rest_;
   KeptBuffer<Real> poses_;
   compute::Buffer<int> kinds_, slots_, from_, all_;
-  compute::Kernel place_;
+  int from_field_ = 0, from_wall_ = 0;  ///< steps in the fields
+  int moving_count_ = 0, all_count_ = 0;
+  compute::BoundKernel place_moving_, place_all_;
 };
 
 }  // namespace wavetank

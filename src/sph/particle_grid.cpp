@@ -1,27 +1,57 @@
 #include "particle_grid.h"
 
 namespace wavetank {
+namespace {
 
-ParticleGrid::ParticleGrid(const compute::Device& device, const compute::SourceFiles& files, const std::string& options, int slots,
-                           int particles)
+int blocks_of(int values) { return (values + field::scan_block - 1) / field::scan_block; }
+
+}  // namespace
+
+ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particles)
     : slots_(slots),
       particles_(particles),
-      blocks_((slots + field::scan_block - 1) / field::scan_block),
+      blocks_(blocks_of(slots)),
+      groups_(blocks_of(blocks_)),
       counts_(device, slots),
       starts_(device, slots + 1),
       block_sums_(device, blocks_ + 1),
-      group_sums_(device, (blocks_ + field::scan_block - 1) / field::scan_block),
+      group_sums_(device, groups_),
       block_starts_(device, blocks_ + 1),
       slot_of_(device, particles),
-      order_(device, particles) {
-  const compute::Program program(device, files, "grid.cl", options);
-  count_ = program.kernel("count_slots");
-  scan_blocks_ = program.kernel("scan_blocks");
-  scan_totals_ = program.kernel("scan_totals");
-  scan_starts_ = program.kernel("scan_starts");
-  scatter_ = program.kernel("scatter");
-  settle_ = program.kernel("settle_slots");
-  reorder_ = program.kernel("reorder");
+      order_(device, particles) {}
+
+void ParticleGrid::bind(const KernelMaker& make, const compute::Arguments& given) {
+  compute::Arguments all = given;
+  all.value("count", particles_).value("slots", slots_).memory("slot_of", slot_of_).memory("counts", counts_).memory("order", order_);
+  all.memory("starts", std::as_const(starts_));
+  count_ = make.exact("grid.cl", "count_slots", all);
+  // a tree of three levels: of slots, blocks of them, and groups of blocks
+  const auto scan = [&](const char* kernel, const int& count, const compute::Buffer<int>& values, compute::Buffer<int>& sums,
+                        compute::Buffer<int>& starts) {
+    compute::Arguments level = given;
+    level.value("count", count).memory("values", values).memory("block_sums", sums).memory("starts", starts);
+    return make.exact("grid.cl", kernel, level);
+  };
+  sum_blocks_ = scan("scan_blocks", slots_, counts_, block_sums_, starts_);
+  sum_groups_ = scan("scan_blocks", blocks_, block_sums_, group_sums_, starts_);
+  total_ = make.exact("grid.cl", "scan_totals", compute::Arguments().value("blocks", groups_).memory("block_sums", group_sums_));
+  start_blocks_ = scan("scan_starts", blocks_, block_sums_, group_sums_, block_starts_);
+  start_slots_ = scan("scan_starts", slots_, counts_, block_starts_, starts_);
+  scatter_ = make.exact("grid.cl", "scatter", all);
+  settle_ = make.exact("grid.cl", "settle_slots", all);
+  reorder_ = make.exact("grid.cl", "reorder", all);
+}
+
+void ParticleGrid::sort() const {
+  count_.launch(particles_);
+  sum_blocks_.launch(blocks_);
+  sum_groups_.launch(groups_);
+  total_.launch(1);
+  start_blocks_.launch(groups_);
+  start_slots_.launch(blocks_);
+  scatter_.launch(particles_);
+  settle_.launch(slots_);
+  reorder_.launch(particles_);
 }
 
 }  // namespace wavetank

@@ -1,23 +1,35 @@
 #include "row_sums.h"
 
+#include <utility>
+
 namespace wavetank {
 
 template <class Real>
-const compute::Buffer<Real>& RowSums<Real>::of(const compute::Device& device, const compute::Kernel& sum_rows,
-                                               const compute::Buffer<Real>& array, int rows, int columns) {
-  const compute::Buffer<Real>* from = &array;
-  int next = 0;
+void RowSums<Real>::bind(const compute::Device& device, const KernelMaker& make, const compute::Arguments& given,
+                         const compute::Buffer<Real>& array, int columns) {
+  device_ = device;
+  columns_ = columns;
+  compute::Arguments arguments = given;
+  arguments.value("rows", rows_).value("columns", columns_).memory("from", array).memory("to", parts_[0]);
+  first_ = make.exact("reduce.cl", "sum_rows", arguments);
+  arguments.memory("from", std::as_const(parts_[0])).memory("to", parts_[1]);
+  onwards_ = make.exact("reduce.cl", "sum_rows", arguments);
+}
+
+template <class Real>
+void RowSums<Real>::sum(int rows) {
+  const compute::BoundKernel* kernel = &first_;
+  rows_ = rows;
   do {
-    const int groups = chunks_of(rows);
-    const std::size_t size = static_cast<std::size_t>(groups) * columns;
-    compute::Buffer<Real>& to = parts_[next];
-    if (to.size() < size) to = compute::Buffer<Real>(device, size);
-    sum_rows.launch(size, rows, columns, *from, to);
-    from = &to;
-    next = 1 - next;
-    rows = groups;
-  } while (rows > 1);
-  return *from;
+    const int groups = chunks_of(rows_);
+    const std::size_t size = static_cast<std::size_t>(groups) * columns_;
+    compute::Buffer<Real>& to = parts_[kernel == &first_ ? 0 : 1];
+    if (to.size() < size) to = compute::Buffer<Real>(*device_, size);
+    kernel->launch(size);
+    if (kernel == &onwards_) std::swap(parts_[0], parts_[1]);
+    kernel = &onwards_;
+    rows_ = groups;
+  } while (rows_ > 1);
 }
 
 template class RowSums<float>;

@@ -1,20 +1,32 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "bound_kernels.h"
 #include "kernel_parameters.h"
-#include "wavetank/compute/program.h"
 
 namespace wavetank {
 
-/// Sums on the device by a tree of a fixed shape, so that they repeat to the bit.
+/// Sums of an array's rows on the device by a tree of a fixed shape, so that they repeat to the bit. Must stay where it is once it is
+/// bound.
 template <class Real>
 class RowSums {
  public:
-  /// Of `rows` > 0 rows of an array, column by column: the first `columns` values of the result, which holds until the next call.
-  const compute::Buffer<Real>& of(const compute::Device& device, const compute::Kernel& sum_rows, const compute::Buffer<Real>& array,
-                                  int rows, int columns);
+  /// `array` has `columns` values a row.
+  void bind(const compute::Device& device, const KernelMaker& make, const compute::Arguments& arguments, const compute::Buffer<Real>& array,
+            int columns);
+  /// Of its first `rows` > 0 rows, column by column: the first values of the result, which holds until the next call.
+  void sum(int rows);
+  /// Where kernels find the result, whatever the number of rows.
+  const compute::Buffer<Real>& result() const { return parts_[0]; }
+  std::vector<Real> download() const { return parts_[0].download(columns_); }
 
  private:
+  std::optional<compute::Device> device_;  ///< once bound
+  int rows_ = 0, columns_ = 0;
   compute::Buffer<Real> parts_[2];
+  compute::BoundKernel first_, onwards_;
 };
 
 }  // namespace wavetank

@@ -45,6 +45,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       count_(static_cast<int>(layout.particles.size())),
       stride_(padded(count_)),
       chunks_(chunks_of(count_)),
+      groups_(chunks_of(chunks_)),
       sources_(kernel_sources()),
       centres_(centres),
       boxes_(owner_boxes(layout, centres)),
@@ -71,9 +72,9 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       fillings_(device, stride_),
-      group_watches_(device, static_cast<std::size_t>(chunks_of(chunks_)) * field::watch_count),
+      group_watches_(device, static_cast<std::size_t>(groups_) * field::watch_count),
       alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
-      group_alarms_(device, static_cast<std::size_t>(chunks_of(chunks_)) * field::alarm_count) {
+      group_alarms_(device, static_cast<std::size_t>(groups_) * field::alarm_count) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
   const WallMotions at_start = motions_at_start();
@@ -86,12 +87,12 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   upload_parameters(values_);
   surroundings_.stride = stride_;
   surroundings_.reach = values_.support;
-  surroundings_.grid = ParticleGrid(device, sources_, text_of(options_), grid_shape_.slots(), count_);
+  surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), count_);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
-  if (owners_move) moving_walls_.emplace(device, sources_, text_of(options_), walls_, moving_, centres_, layout, discretisation_);
-  build_kernels();
+  if (owners_move) moving_walls_.emplace(device, walls_, moving_, centres_, layout, discretisation_);
+  bind_kernels();
   set_wall_motions(at_start);
   upload_particles(layout);
   schedule_ = schedule_of(scene.numerics.integrator, this);
@@ -140,13 +141,8 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   levels_ = layout.levels;
   state_.upload(state);
   id_.upload(id);
-  kernels_.derive.launch(count_, surroundings_.parameters, count_, state_, stride_);
+  kernels_.derive.launch(count_);
   sort();
-}
-
-template <class Real>
-void SphSolver<Real>::build_kernels() {
-  kernels_ = SolverKernels(device_, sources_, text_of(options_), tiling_, elements_);
 }
 
 template <class Real>
@@ -155,7 +151,7 @@ void SphSolver<Real>::set_wall_motions(const WallMotions& motions) {
   if (options_.at("MOVING_WALLS") != 0 || std::none_of(motions.owners.begin(), motions.owners.end(), moves)) return;
   if (ghosts_) throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
   options_["MOVING_WALLS"] = 1;
-  build_kernels();
+  bind_kernels();
 }
 
 template <class Real>
@@ -201,7 +197,9 @@ void SphSolver<Real>::set_film(const std::vector<FilmLump>& lumps) {
 
 template <class Real>
 void SphSolver<Real>::sort() {
-  surroundings_.grid.sort(surroundings_.parameters, state_, half_, stride_, id_, spare_id_);
+  surroundings_.grid.sort();
+  std::swap(state_, half_);
+  std::swap(id_, spare_id_);
   surroundings_.reach = values_.support;
 }
 
@@ -212,26 +210,8 @@ void SphSolver<Real>::widen_reach(double part, double speed) {
 }
 
 template <class Real>
-void SphSolver<Real>::load_walls(const Buffer& state) {
-  if (!elements_) return;  // a facet's pressure is that of the particle that feels it
-  sweep(kernels_.loads, walls_.count, state, walls_, loads_);
-}
-
-template <class Real>
-void SphSolver<Real>::compress_at(const Buffer& state) {
-  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) sweep(kernels_.gradient, count_, state, walls_, gradient_);
-  sweep(kernels_.continuity, count_, state, walls_, gradient_, rates_);
-}
-
-template <class Real>
-void SphSolver<Real>::accelerate(const Buffer& state) {
-  load_walls(state);
-  sweep(kernels_.momentum, count_, state, walls_, loads_, surroundings_.film.on_device(), rates_);
-}
-
-template <class Real>
-std::vector<WallWrench> SphSolver<Real>::wrenches_at(const Buffer& state, const std::vector<int>& owners) {
-  return wrenches_.find(kernels_, surroundings_, state, walls_, loads_, owners);
+void SphSolver<Real>::load_walls(Slot state) {
+  if (elements_) kernels_.loads[state].launch(walls_.count);  // a facet's pressure is that of the particle that feels it
 }
 
 // ---------------------------------------------------------------- what integrators are made of
@@ -242,9 +222,21 @@ void SphSolver<Real>::walls_at(double fraction) {
 }
 
 template <class Real>
+void SphSolver<Real>::find_accelerations(Slot state) {
+  load_walls(state);
+  kernels_.momentum[state].launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::find_compression_rates(Slot state) {
+  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) kernels_.gradient[state].launch(count_);
+  kernels_.continuity[state].launch(count_);
+}
+
+template <class Real>
 void SphSolver<Real>::add_wrenches(Slot state, double weight) {
   if (mover_ == nullptr) return;
-  const std::vector<WallWrench> wrenches = wrenches_at(buffer_of(state), mover_->coupled());
+  const std::vector<WallWrench> wrenches = wrenches_.find(state, mover_->coupled());
   const bool first = step_wrenches_.empty();
   step_wrenches_.resize(wrenches.size());
   for (std::size_t k = 0; k < wrenches.size(); ++k)
@@ -270,48 +262,48 @@ void SphSolver<Real>::walls_to_end() {
 
 template <class Real>
 void SphSolver<Real>::guard() {
-  sweep(kernels_.guard, count_, state_, walls_, rates_, half_, report_, guarded_.hits, guarded_.takers, guarded_.lost);
-  if (guarded_.gives() && mover_ != nullptr) guarded_.gather(kernels_, state_, surroundings_.motions.on_device(), report_);
+  kernels_.guard.launch(count_);
+  if (guarded_.gives() && mover_ != nullptr) guarded_.gather();
 }
 
 template <class Real>
 void SphSolver<Real>::drift_to_middle() {
-  kernels_.predict.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_);
+  kernels_.predict.launch(count_);
   widen_reach(0.5, greatest_speed_);
 }
 
 template <class Real>
 void SphSolver<Real>::kick_and_drift_to_end() {
-  kernels_.correct.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_);
+  kernels_.correct.launch(count_);
 }
 
 template <class Real>
 void SphSolver<Real>::compress_to_end() {
-  kernels_.compress.launch(count_, surroundings_.parameters, count_, state_, stride_, rates_, report_);
+  kernels_.compress.launch(count_);
 }
 
 template <class Real>
 void SphSolver<Real>::go_on_trial(Slot, bool first, double weight, double part) {
-  kernels_.go_on_trial.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_, first ? 1 : 0,
-                              static_cast<Real>(weight), static_cast<Real>(part));
+  trial_ = {first ? 1 : 0, static_cast<Real>(weight), static_cast<Real>(part)};
+  kernels_.go_on_trial.launch(count_);
   widen_reach(part, speed_in_step());
 }
 
 template <class Real>
 void SphSolver<Real>::take_sum(double weight) {
-  kernels_.take_sum.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_,
-                           static_cast<Real>(weight));
+  trial_.weight = static_cast<Real>(weight);
+  kernels_.take_sum.launch(count_);
 }
 
 template <class Real>
 void SphSolver<Real>::predict_end() {
-  kernels_.predict_end.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_);
+  kernels_.predict_end.launch(count_);
   widen_reach(1.0, speed_in_step());
 }
 
 template <class Real>
 void SphSolver<Real>::correct_end() {
-  kernels_.correct_end.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_, report_, sum_);
+  kernels_.correct_end.launch(count_);
 }
 
 // ---------------------------------------------------------------- a step
@@ -343,11 +335,10 @@ double SphSolver<Real>::shorten_step(double longest) {
 
 template <class Real>
 StepReport SphSolver<Real>::watch() {
-  const double longest = std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_);
-  kernels_.watch_chunks.launch(chunks_, surroundings_.parameters, count_, state_, rates_, stride_, guarded_.hits, watches_, alarms_);
-  const int groups = chunks_of(chunks_);
-  kernels_.watch_groups.launch(groups, chunks_, watches_, alarms_, group_watches_, group_alarms_);
-  kernels_.watch_total.launch(1, surroundings_.parameters, groups, group_watches_, group_alarms_, static_cast<Real>(longest), report_);
+  longest_step_ = static_cast<Real>(std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_));
+  kernels_.watch_chunks.launch(chunks_);
+  kernels_.watch_groups.launch(groups_);
+  kernels_.watch_total.launch(1);
   const std::vector<Real> values = report_.download();
   guarded_.read(values);
   int alarm[field::alarm_count];

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
 
+#include "bound_kernels.h"
 #include "build_options.h"
 #include "case_walls.h"
 #include "guard_impulses.h"
@@ -10,7 +13,6 @@
 #include "kernel_parameters.h"
 #include "moving_walls.h"
 #include "row_sums.h"
-#include "solver_kernels.h"
 #include "surroundings.h"
 #include "tank_images.h"
 #include "wall_wrenches.h"
@@ -55,13 +57,14 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<WallElement> facing_pieces() const;
   void upload_parameters(const KernelParameters<Real>& values);
   void upload_particles(const Layout& layout);
-  void build_kernels();
-  /// Queues a kernel that goes over the neighbours of `count` particles, points or walls; `others` are its own arguments. The guard writes
-  /// the state.
-  template <class... Others>
-  void sweep(const SweepKernel& kernel, int count, const Buffer& state, const WallArrays<Real>& walls, const Others&... others) {
-    surroundings_.sweep(kernel, count, state, walls, others...);
-  }
+  compute::Arguments arguments() const;
+  compute::Arguments arguments_of(Slot state) const;
+  /// With the present options.
+  void bind_kernels();
+  void bind_sweeps();
+  void bind_time_step();
+  void bind_reductions();
+  void bind(const DevicePoints& points) const;
 
   /// Gravity's part along which the water is at rest at the start.
   Eigen::Vector3d gravity_at_rest() const { return case_.gravity.dot(up_) * up_; }
@@ -71,8 +74,8 @@ class SphSolver final : public Solver, private StepEngine {
   WallArrays<Real> make_supported_walls() const;
 
   void walls_at(double fraction) override;
-  void find_accelerations(Slot state) override { accelerate(buffer_of(state)); }
-  void find_compression_rates(Slot state) override { compress_at(buffer_of(state)); }
+  void find_accelerations(Slot state) override;
+  void find_compression_rates(Slot state) override;
   void add_wrenches(Slot state, double weight) override;
   void walls_to_end() override;
   void guard() override;
@@ -93,13 +96,21 @@ class SphSolver final : public Solver, private StepEngine {
   }
   void place_walls(const WallMotions& motions);
   void place_barriers();
-  void load_walls(const Buffer& state);
-  /// Accelerations and compression rates into the rates.
-  void accelerate(const Buffer& state);
-  void compress_at(const Buffer& state);
-  std::vector<WallWrench> wrenches_at(const Buffer& state, const std::vector<int>& owners);
+  void load_walls(Slot state);
   StepReport watch();
   void describe_offender(StepReport& report, int first) const;
+
+  struct Kernels {
+    std::map<Slot, BoundSweep> continuity, momentum, gradient, loads;
+    BoundSweep packing, surface, crowding, pairs, guard;
+    compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
+    compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
+  };
+  /// What go_on_trial and its like are told.
+  struct Trial {
+    int first = 0;
+    Real weight = 0, part = 0;
+  };
 
   compute::Device device_;
   Case case_;
@@ -107,6 +118,7 @@ class SphSolver final : public Solver, private StepEngine {
   int count_ = 0;
   int stride_ = 0;
   int chunks_ = 0;
+  int groups_ = 0;  ///< chunks of chunks
   BuildOptions options_;
   compute::SourceFiles sources_;
   KernelParameters<Real> values_;
@@ -142,10 +154,15 @@ class SphSolver final : public Solver, private StepEngine {
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
   Buffer report_, watches_, energy_parts_, fillings_;
+  Buffer surface_, packing_parts_;  ///< on the device only while they are needed
   Buffer group_watches_;
-  compute::Buffer<int> alarms_, group_alarms_;
-  RowSums<Real> sums_;
-  SolverKernels kernels_;
+  compute::Buffer<int> alarms_, group_alarms_, pair_counts_;
+  RowSums<Real> energy_sums_, packing_sums_;
+  Real longest_step_ = 0;  ///< bound on Δt from what moves besides the fluid, s
+  Trial trial_;
+  std::optional<KernelMaker> make_;
+  int bindings_ = 0;  ///< how often kernels were bound
+  Kernels kernels_;
   Schedule schedule_;
 };
 

@@ -8,9 +8,9 @@ struct SphSolver<Real>::DevicePoints final : PointSet {
   DevicePoints(const compute::Device& on, const Eigen::Vector3d& grid_origin) : device(on), origin(grid_origin) {}
 
   void set(const std::vector<Eigen::Vector3d>& points) override {
-    count = points.size();
-    std::vector<Real> values(3 * count);
-    for (std::size_t i = 0; i < count; ++i)
+    count = static_cast<int>(points.size());
+    std::vector<Real> values(3 * points.size());
+    for (int i = 0; i < count; ++i)
       for (int axis = 0; axis < 3; ++axis) values[axis * count + i] = static_cast<Real>(points[i][axis] - origin[axis]);
     places.set(device, values);
     if (results.size() < places.on_device().size()) results = Buffer(device, places.on_device().size());
@@ -18,41 +18,53 @@ struct SphSolver<Real>::DevicePoints final : PointSet {
 
   compute::Device device;
   Eigen::Vector3d origin;
-  std::size_t count = 0;
+  int count = 0;
   KeptBuffer<Real> places;
   mutable Buffer results;
+  mutable BoundSweep kernel;
+  mutable int binding = 0;  ///< of the solver, that the kernel is of
 };
 
 template <class Real>
 std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::Vector3d>& points) const {
   auto set = std::make_unique<DevicePoints>(device_, discretisation_.origin);
   set->set(points);
+  bind(*set);
   return set;
+}
+
+template <class Real>
+void SphSolver<Real>::bind(const DevicePoints& set) const {
+  compute::Arguments all = arguments();
+  all.value("count", set.count).memory("points", set.places.on_device()).memory("results", set.results);
+  set.kernel = make_->over_points("points.cl", "points", all);
+  set.binding = bindings_;
 }
 
 template <class Real>
 std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
-  sweep(kernels_.points, static_cast<int>(points.count), state_, walls_, points.places.on_device(), points.results);
-  const std::vector<Real> results = points.results.download(3 * points.count);
+  if (points.binding != bindings_) bind(points);
+  points.kernel.launch(points.count);
+  const std::vector<Real> results = points.results.download(3 * static_cast<std::size_t>(points.count));
   std::vector<PointValue> values(points.count);
-  for (std::size_t i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
+  for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
   return values;
 }
 
 template <class Real>
 std::vector<WallWrench> SphSolver<Real>::wrenches() {
-  load_walls(state_);  // at this instant; the step found its own in its middle
+  load_walls(Slot::now);  // at this instant; the step found its own in its middle
   std::vector<int> owners(centres_.size());
   std::iota(owners.begin(), owners.end(), 0);
-  return wrenches_at(state_, owners);
+  return wrenches_.find(Slot::now, owners);
 }
 
 template <class Real>
 FluidEnergies SphSolver<Real>::energies() {
-  kernels_.energy_chunks.launch(chunks_, surroundings_.parameters, count_, state_, stride_, energy_parts_);
-  const std::vector<Real> total =
-      sums_.of(device_, kernels_.sum_rows, energy_parts_, chunks_, field::energy_count).download(field::energy_count);
+  kernels_.energy_chunks.launch(chunks_);
+  energy_sums_.sum(chunks_);
+  const std::vector<Real> total = energy_sums_.download();
   FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
@@ -70,7 +82,7 @@ FluidEnergies SphSolver<Real>::energies() {
 template <class Real>
 LostVolume SphSolver<Real>::lost_volume() {
   constexpr double crowded = 1.1;  // packed particles are so by 1 or 2 %, those that hit a wall by some more
-  sweep(kernels_.crowding, count_, state_, walls_, fillings_);
+  kernels_.crowding.launch(count_);
   const std::vector<Real> fillings = fillings_.download(count_), state = state_.download();
   LostVolume volume;
   double most = 0;
@@ -88,9 +100,10 @@ LostVolume SphSolver<Real>::lost_volume() {
 template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
-  Buffer results(device_, 2 * static_cast<std::size_t>(stride_));
-  sweep(kernels_.surface, count_, state_, walls_, results);
-  const std::vector<Real> surface = results.download();
+  surface_ = Buffer(device_, 2 * static_cast<std::size_t>(stride_));
+  kernels_.surface.launch(count_);
+  const std::vector<Real> surface = surface_.download();
+  surface_ = Buffer();
   FluidState fluid;
   fluid.id = id_.download();
   const auto value = [&](int f, int i) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
@@ -106,15 +119,12 @@ FluidState SphSolver<Real>::download() {
   return fluid;
 }
 
-/// Built when it is asked for: no simulation needs it.
 template <class Real>
 PairCount SphSolver<Real>::count_pairs() {
-  const SweepKernel kernel{
-      compute::Program(device_, sources_, "pairs.cl", text_of(options_) + tiling_.particles.build_options()).kernel("pairs"),
-      tiling_.particles.own};
-  compute::Buffer<int> counts(device_, 2 * static_cast<std::size_t>(count_));
-  sweep(kernel, count_, state_, walls_, counts);
-  const std::vector<int> values = counts.download();
+  pair_counts_ = compute::Buffer<int>(device_, 2 * static_cast<std::size_t>(count_));
+  kernels_.pairs.launch(count_);
+  const std::vector<int> values = pair_counts_.download();
+  pair_counts_ = compute::Buffer<int>();
   return {std::accumulate(values.begin(), values.begin() + count_, std::uint64_t{0}),
           std::accumulate(values.begin() + count_, values.end(), std::uint64_t{0})};
 }

@@ -37,9 +37,9 @@ StepReport SphSolver<Real>::start_at_rest() {
   for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
     std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0));
   state_.upload(state);
-  kernels_.derive.launch(count_, surroundings_.parameters, count_, state_, stride_);
-  accelerate(state_);
-  compress_at(state_);
+  kernels_.derive.launch(count_);
+  find_accelerations(Slot::now);
+  find_compression_rates(Slot::now);
   guarded_.clear();
   return watch();
 }
@@ -106,26 +106,32 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
 template <class Real>
 PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
   PackingReport report;
-  const WallArrays<Real> closed =
-      case_walls_.arrays_at_start<Real>(device_, !ghosts_, case_walls_.lid());  // the ghosts themselves are the walls
-  const WallArrays<Real> of_guard = ghosts_ ? case_walls_.arrays_at_start<Real>(device_, true, case_walls_.lid()) : WallArrays<Real>();
-  const WallArrays<Real>& guarded = ghosts_ ? of_guard : closed;
-  Buffer squares(device_, chunks_);
+  const auto with_lid = [&](bool real_walls) { return case_walls_.arrays_at_start<Real>(device_, real_walls, case_walls_.lid()); };
+  WallArrays<Real> closed = with_lid(!ghosts_);  // the ghosts themselves are the walls
+  WallArrays<Real> of_guard = ghosts_ ? with_lid(true) : WallArrays<Real>();
+  const auto launch_among = [this](WallArrays<Real>& walls, const BoundSweep& kernel) {
+    std::swap(walls_, walls);
+    kernel.launch(count_);
+    std::swap(walls_, walls);
+  };
+  packing_parts_ = Buffer(device_, chunks_);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
-    sweep(kernels_.packing, count_, state_, closed, surroundings_.film.on_device(), rates_);
+    launch_among(closed, kernels_.packing);
     if (k % report_interval == 0 || k == iterations) {
-      kernels_.packing_chunks.launch(chunks_, count_, rates_, stride_, squares);
-      report.last_error = std::sqrt(sums_.of(device_, kernels_.sum_rows, squares, chunks_, 1).download(1)[0] / static_cast<Real>(count_));
+      kernels_.packing_chunks.launch(chunks_);
+      packing_sums_.sum(chunks_);
+      report.last_error = std::sqrt(packing_sums_.download()[0] / static_cast<Real>(count_));
       if (k == 0) report.first_error = report.last_error;
       if (progress) progress(iterations == 0 ? 1.0 : static_cast<double>(k) / iterations);
     }
     report.iterations = k;
     if (k == iterations) break;
-    kernels_.move_packed.launch(count_, surroundings_.parameters, count_, state_, half_, stride_, rates_);
-    sweep(kernels_.guard, count_, state_, guarded, rates_, half_, report_, guarded_.hits, guarded_.takers, guarded_.lost);
+    kernels_.move_packed.launch(count_);
+    launch_among(ghosts_ ? of_guard : closed, kernels_.guard);
     sort();
   }
+  packing_parts_ = Buffer();
   return report;
 }
 

@@ -2,25 +2,16 @@
 
 #include "barriers.h"
 #include "particle_grid.h"
-#include "solver_kernels.h"
 #include "wall_arrays.h"
-#include "wavetank/compute/program.h"
+#include "wavetank/compute/arguments.h"
 
 namespace wavetank {
 
 /// What every kernel that goes over neighbours reads besides the particles.
 template <class Real>
 struct Surroundings {
-  using Buffer = compute::Buffer<Real>;
-
-  /// Queues such a kernel over `count` particles, points or walls; `others` are its own arguments.
-  template <class... Others>
-  void sweep(const SweepKernel& sweep, int count, const Buffer& state, const WallArrays<Real>& walls, const Others&... others) const {
-    sweep.kernel.launch((count + sweep.own - 1) / sweep.own, parameters, count, grid.starts(), state, stride, reach, walls.starts,
-                        walls.list, walls.fields, walls.stride, motions.on_device(), barriers.starts.on_device(), barriers.list.on_device(),
-                        barriers.planes.on_device(), barriers.edge_starts.on_device(), barriers.edge_list.on_device(),
-                        barriers.edges.on_device(), images, others...);
-  }
+  /// All of it, and the walls, under the names that kernels have for them.
+  compute::Arguments arguments(const WallArrays<Real>& walls) const;
 
   compute::Buffer<char> parameters;
   int stride = 0;  ///< of particles, from a field to the next
@@ -28,8 +19,21 @@ struct Surroundings {
   ParticleGrid grid;
   KeptBuffer<Real> motions;  ///< field::frame_count values of the frame, field::motion_count of each owner
   Barriers<Real> barriers;
-  Buffer images;
-  KeptBuffer<Real> film;  ///< as film.cl has it, for the kernels that ask for it
+  compute::Buffer<Real> images;
+  KeptBuffer<Real> film;  ///< as film.cl has it
 };
+
+template <class Real>
+compute::Arguments Surroundings<Real>::arguments(const WallArrays<Real>& walls) const {
+  compute::Arguments arguments({{"real", compute::KernelType<Real>::name}, {"parameters_t", compute::KernelType<char>::name}});
+  arguments.memory("p", parameters).memory("slot_start", grid.starts()).value("stride", stride).value("reach", reach);
+  arguments.memory("wall_start", walls.starts).memory("wall_list", walls.list).memory("wall_fields", walls.fields);
+  arguments.value("wall_stride", walls.stride).memory("wall_motions", motions.on_device());
+  arguments.memory("barrier_start", barriers.starts.on_device()).memory("barrier_list", barriers.list.on_device());
+  arguments.memory("barriers", barriers.planes.on_device()).memory("edge_start", barriers.edge_starts.on_device());
+  arguments.memory("edge_list", barriers.edge_list.on_device()).memory("edges", barriers.edges.on_device());
+  arguments.memory("images", images).memory("film", film.on_device());
+  return arguments;
+}
 
 }  // namespace wavetank

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wavetank {
 namespace {
@@ -32,6 +33,23 @@ WallWrenches<Real>::WallWrenches(const compute::Device& device, const Discretisa
       drift_(drift),
       facing_(device, pieces, discretisation),
       totals_(device, boxes.size() * field::wrench_count) {}
+
+template <class Real>
+void WallWrenches<Real>::bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& given) {
+  std::map<Slot, compute::Arguments> arguments = given;
+  for (auto& [slot, own] : arguments) {
+    own.value("regions", region_count_).value("items", region_items_).value("chunks", chunks_);
+    own.memory("region_values", regions_.on_device()).memory("totals", totals_);
+    compute::Arguments sweep = own;
+    sweep.value("count", region_items_).memory("wrenches", parts_);
+    forces_[slot] = make.over_runs("wall_forces.cl", "wall_forces", sweep);
+  }
+  compute::Arguments reduction = arguments.begin()->second;
+  reduction.value("count", sum_count_).memory("wrenches", std::as_const(parts_)).memory("sums", sums_);
+  chunk_kernel_ = make.exact("reduce.cl", "wrench_chunks", reduction);
+  total_kernel_ = make.exact("reduce.cl", "wrench_totals", reduction);
+  facing_.bind(make, arguments);
+}
 
 template <class Real>
 void WallWrenches<Real>::set_poses(const std::vector<WallPose>& poses) {
@@ -72,24 +90,21 @@ void WallWrenches<Real>::find_regions(const std::vector<int>& owners) {
   const std::size_t parts = static_cast<std::size_t>(region_items_) * field::wrench_count;
   if (parts_.size() < parts) parts_ = compute::Buffer<Real>(device_, 2 * parts);
   chunks_ = chunks_of(most);
-  const std::size_t sums = owners.size() * chunks_ * field::wrench_count;
+  region_count_ = static_cast<int>(owners.size());
+  sum_count_ = region_count_ * chunks_;
+  const std::size_t sums = static_cast<std::size_t>(sum_count_) * field::wrench_count;
   if (sums_.size() < sums) sums_ = compute::Buffer<Real>(device_, sums);
   region_owners_ = owners;
 }
 
 template <class Real>
-std::vector<WallWrench> WallWrenches<Real>::find(const SolverKernels& kernels, const Surroundings<Real>& surroundings,
-                                                 const compute::Buffer<Real>& state, const WallArrays<Real>& walls,
-                                                 const compute::Buffer<Real>& loads, const std::vector<int>& owners) {
+std::vector<WallWrench> WallWrenches<Real>::find(Slot state, const std::vector<int>& owners) {
   if (owners.empty()) return {};
   if (region_owners_ != owners) find_regions(owners);
-  const int regions = static_cast<int>(owners.size());
-  surroundings.sweep(kernels.wall_forces, region_items_, state, walls, loads, surroundings.film.on_device(), regions, regions_.on_device(),
-                     parts_);
-  const int sums = regions * chunks_;
-  kernels.wrench_chunks.launch(sums, sums, chunks_, regions, region_items_, regions_.on_device(), parts_, sums_);
-  kernels.wrench_totals.launch(regions, regions, chunks_, sums_, totals_);
-  facing_.add(kernels, surroundings, state, walls, regions, regions_.on_device(), totals_);
+  forces_.at(state).launch(region_items_);
+  chunk_kernel_.launch(sum_count_);
+  total_kernel_.launch(region_count_);
+  facing_.add(state, region_count_);
   const std::vector<Real> totals = totals_.download(owners.size() * field::wrench_count);
   std::vector<WallWrench> result(owners.size());
   for (std::size_t k = 0; k < owners.size(); ++k)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "facing_walls.h"
+#include "integrators/integrator.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
@@ -16,11 +18,12 @@ class WallWrenches {
   WallWrenches(const compute::Device& device, const Discretisation& discretisation, const GridShape& grid, const std::vector<Box>& boxes,
                const std::vector<WallElement>& pieces, bool everywhere, double drift);
 
+  /// `arguments`: of the surroundings, and for each slot of a state that wrenches are found of. This must stay where it is from then on.
+  void bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& arguments);
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
-  /// One wrench a listed owner; `loads`: the pressures of wall elements.
-  std::vector<WallWrench> find(const SolverKernels& kernels, const Surroundings<Real>& surroundings, const compute::Buffer<Real>& state,
-                               const WallArrays<Real>& walls, const compute::Buffer<Real>& loads, const std::vector<int>& owners);
+  /// One wrench a listed owner.
+  std::vector<WallWrench> find(Slot state, const std::vector<int>& owners);
 
  private:
   void find_regions(const std::vector<int>& owners);
@@ -36,8 +39,12 @@ class WallWrenches {
   compute::Buffer<Real> parts_, sums_, totals_;
   KeptBuffer<int> regions_;
   std::vector<int> region_owners_;  ///< that the regions were found for, at the present poses; empty: for none
+  int region_count_ = 0;
   int region_items_ = 0;
-  int chunks_ = 0;  ///< of items, of the largest region
+  int chunks_ = 0;     ///< of items, of the largest region
+  int sum_count_ = 0;  ///< chunks of all regions
+  std::map<Slot, BoundSweep> forces_;
+  compute::BoundKernel chunk_kernel_, total_kernel_;
 };
 
 }  // namespace wavetank

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "wavetank/compute/buffer.h"
 #include "wavetank/compute/device.h"
@@ -14,9 +15,21 @@ namespace wavetank::compute {
 /// file at most once (as with #pragma once), with #line directives so that a build error names the kernel's own file and line.
 using SourceFiles = std::map<std::string, std::string>;
 
+/// One parameter of a kernel, as its source declares it.
+struct Parameter {
+  std::string name;
+  std::string type;  ///< of the value, or of the array's elements
+  bool is_memory = false;
+  bool is_const = false;  ///< may not be written to
+};
+
 /// One kernel of a program. launch() queues it and returns at once.
 class Kernel {
  public:
+  const std::string& name() const;
+  /// In their order.
+  std::vector<Parameter> parameters() const;
+
   /// Runs at least `items` work-items (rounded up to whole work-groups: the kernel must return at once for ids ≥ its count),
   /// arguments in the kernel's order: Buffer<T> or a scalar of the kernel's exact type (int, unsigned, float, double, ...).
   template <class... Arguments>
@@ -35,6 +48,7 @@ class Kernel {
 
  private:
   friend class Program;
+  friend class BoundKernel;
   template <class T>
   void set(unsigned index, const Buffer<T>& buffer) const {
     set_memory(index, buffer.memory());
@@ -51,6 +65,9 @@ class Kernel {
   std::shared_ptr<State> state_;
 };
 
+/// When a program's kernels are compiled.
+enum class Build { now, at_first_use };
+
 class Program {
  public:
   Program() = default;
@@ -60,8 +77,8 @@ class Program {
   /// by WAVETANK_CACHE_DIRECTORY= empty), keyed by source, options, device and driver; a damaged or unwritable cache is never an error.
   /// pocl has a cache of its own and uses this one only if WAVETANK_CACHE_DIRECTORY names it.
   /// A build error throws Error with the compiler's message and the offending source line.
-  Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options);
-  /// Throws Error if the program has no kernel of that name.
+  Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options, Build when = Build::now);
+  /// Throws Error if the program has no kernel of that name: at once, or, where it is built at its first use, then.
   Kernel kernel(const std::string& name) const;
 
  private:

@@ -69,11 +69,11 @@ __kernel void settle_slots(int slots, __global const int* starts, __global const
   }
 }
 
-__kernel void reorder(int count, __global const int* order, __global const real* from, __global real* to, int stride, __global const uint* id_from,
-                      __global uint* id_to) {
+__kernel void reorder(int count, __global const int* order, __global const real* state, __global real* half_state, int stride, __global const uint* id,
+                      __global uint* spare_id) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int source = order[i];
-  for (int field = 0; field < FIELD_COUNT; ++field) to[field * stride + i] = from[field * stride + source];
-  id_to[i] = id_from[source];
+  for (int field = 0; field < FIELD_COUNT; ++field) half_state[field * stride + i] = state[field * stride + source];
+  spare_id[i] = id[source];
 }

@@ -135,15 +135,15 @@ INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* stat
 __kernel void guard(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, int stride, real reach,
                     WALL_ARGUMENTS,
                     __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
-                    __global int* hits, __global int* takers, __global real* lost) {
+                    __global int* guard_hits, __global int* takers, __global real* lost) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  hits[i] = 0;
+  guard_hits[i] = 0;
 #if GUARD_IMPULSES
   for (int slot = 0; slot < GUARD_OWNERS; ++slot) takers[slot * stride + i] = NO_OWNER;
 #endif
   const bool above_rim = p->top_way * state[(FIELD_X + p->top_axis) * stride + i] > p->rim;
-  if (above_rim) hits[i] = hold_over_tank(p, state, stride, i) ? 1 : 0;
+  if (above_rim) guard_hits[i] = hold_over_tank(p, state, stride, i) ? 1 : 0;
   // who was further away than it has moved since cannot have come near, but for what walls move in a step (Δx/5 at the most)
   real moved = R(0.0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -174,7 +174,7 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
     const real at_rim = p->top_way * (p->rim - R(0.25) * p->spacing);
     sweep_walls(&a, p, &walls, images, p->top_axis == 0 ? at_rim : x, p->top_axis == 1 ? at_rim : y, p->top_axis == 2 ? at_rim : z);
   }
-  hits[i] |= a.hits > 0 ? 1 : 0;
+  guard_hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;
   state[FIELD_W * stride + i] = a.w;
   state[FIELD_X * stride + i] += a.x;

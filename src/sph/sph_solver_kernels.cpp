@@ -1,0 +1,98 @@
+#include <utility>
+
+#include "sph_solver.h"
+
+namespace wavetank {
+
+/// Under the names that kernels have for them: what all may read. Those that write are given what they write.
+template <class Real>
+compute::Arguments SphSolver<Real>::arguments() const {
+  compute::Arguments all = surroundings_.arguments(walls_);
+  all.value("count", count_).memory("motions", surroundings_.motions.on_device());
+  all.memory("state", state_).memory("half_state", half_).memory("rates", rates_).memory("gradient", gradient_);
+  all.memory("wall_loads", loads_).memory("time_step", report_).memory("id", id_).memory("guard_hits", guarded_.hits);
+  return all;
+}
+
+template <class Real>
+compute::Arguments SphSolver<Real>::arguments_of(Slot state) const {
+  return arguments().memory("state", buffer_of(state));
+}
+
+template <class Real>
+void SphSolver<Real>::bind_kernels() {
+  make_.emplace(device_, sources_, text_of(options_), tiling_);
+  ++bindings_;
+  bind_sweeps();
+  bind_time_step();
+  bind_reductions();
+  surroundings_.grid.bind(*make_, arguments().memory("half_state", half_).memory("spare_id", spare_id_));
+  wrenches_.bind(*make_, {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
+  guarded_.bind(*make_, arguments().memory("report", report_));
+  if (moving_walls_) moving_walls_->bind(*make_, arguments(), walls_);
+}
+
+template <class Real>
+void SphSolver<Real>::bind_sweeps() {
+  for (const Slot slot : {Slot::now, Slot::trial}) {
+    const compute::Arguments of_state = arguments_of(slot);
+    compute::Arguments writes = of_state;
+    kernels_.continuity[slot] = make_->over_particles("continuity.cl", "continuity", writes.memory("rates", rates_));
+    kernels_.momentum[slot] = make_->over_particles("momentum.cl", "momentum", writes);
+    writes = of_state;
+    kernels_.gradient[slot] = make_->over_particles("density_gradient.cl", "density_gradient", writes.memory("gradient", gradient_));
+    writes = of_state;
+    kernels_.loads[slot] = make_->over_points("wall_loads.cl", "wall_loads", writes.value("count", walls_.count).memory("loads", loads_));
+  }
+  kernels_.packing = make_->over_particles("packing.cl", "packing", arguments().memory("rates", rates_));
+  kernels_.surface = make_->over_particles("points.cl", "surface", arguments().memory("results", surface_));
+  kernels_.crowding = make_->over_particles("crowding.cl", "crowding", arguments().memory("fillings", fillings_));
+  kernels_.pairs = make_->over_particles("pairs.cl", "pairs", arguments().memory("counts", pair_counts_));
+  compute::Arguments guarding = arguments().memory("state", state_);
+  guarded_.add_to(guarding);
+  kernels_.guard = {make_->exact("guard.cl", "guard", guarding), 1};
+}
+
+template <class Real>
+void SphSolver<Real>::bind_time_step() {
+  const auto kernel = [&](const char* name, const compute::Arguments& writes) { return make_->exact("time_step.cl", name, writes); };
+  kernels_.derive = kernel("derive_state", arguments().memory("state", state_));
+  kernels_.predict = kernel("predict", arguments().memory("half_state", half_));
+  kernels_.correct = kernel("correct", arguments().memory("state", state_));
+  kernels_.compress = kernel("compress", arguments().memory("state", state_));
+  kernels_.move_packed = kernel("move_packed", arguments().memory("state", state_).memory("half_state", half_));
+  compute::Arguments towards = arguments();
+  towards.memory("now", std::as_const(state_)).memory("trial", half_).memory("sum", sum_);
+  towards.value("first", trial_.first).value("weight", trial_.weight).value("part", trial_.part);
+  kernels_.go_on_trial = kernel("go_on_trial", towards);
+  kernels_.predict_end = kernel("predict_end", towards);
+  compute::Arguments back = towards;
+  back.memory("now", state_).memory("rates", rates_).memory("sum", std::as_const(sum_));
+  kernels_.take_sum = kernel("take_sum", back);
+  kernels_.correct_end = kernel("correct_end", back);
+}
+
+template <class Real>
+void SphSolver<Real>::bind_reductions() {
+  const auto kernel = [&](const char* name, const compute::Arguments& writes) { return make_->exact("reduce.cl", name, writes); };
+  compute::Arguments watching = arguments();
+  watching.memory("watches", watches_).memory("alarms", alarms_);
+  kernels_.watch_chunks = kernel("watch_chunks", watching);
+  watching.memory("group_watches", group_watches_).memory("group_alarms", group_alarms_).value("chunks", chunks_);
+  kernels_.watch_groups = kernel("watch_groups", watching);
+  watching.memory("watches", std::as_const(group_watches_)).memory("alarms", std::as_const(group_alarms_)).value("chunks", groups_);
+  kernels_.watch_total = kernel("watch_total", watching.value("longest", longest_step_).memory("report", report_));
+  kernels_.energy_chunks = kernel("energy_chunks", arguments().memory("energies", energy_parts_));
+  energy_sums_.bind(device_, *make_, arguments(), energy_parts_, field::energy_count);
+  kernels_.packing_chunks = kernel("packing_chunks", arguments().memory("sums", packing_parts_));
+  packing_sums_.bind(device_, *make_, arguments(), packing_parts_, 1);
+}
+
+template compute::Arguments SphSolver<float>::arguments() const;
+template compute::Arguments SphSolver<float>::arguments_of(Slot) const;
+template void SphSolver<float>::bind_kernels();
+template compute::Arguments SphSolver<double>::arguments() const;
+template compute::Arguments SphSolver<double>::arguments_of(Slot) const;
+template void SphSolver<double>::bind_kernels();
+
+}  // namespace wavetank
