@@ -3,29 +3,31 @@
 namespace wavetank {
 
 SolverKernels::SolverKernels(const compute::Device& device, const compute::SourceFiles& files, const std::string& options,
-                             const Tiling& tiling, bool elements) {
+                             const Tiling& tiling) {
   const std::string fast = options + " -cl-fast-relaxed-math";
-  const auto kernel_of = [&](const char* file, const char* name, const std::string& own_options) {
-    return compute::Program(device, files, file, own_options).kernel(name);
+  const auto lazy = [&](const char* file, const char* name, const std::string& own_options) {
+    return LazyKernel(
+        [device, &files, file, name, own_options] { return compute::Program(device, files, file, own_options).kernel(name); });
   };
   const auto of_particles = [&](const char* file, const char* name) {
-    return SweepKernel{kernel_of(file, name, fast + tiling.particles.build_options()), tiling.particles.own};
+    return SweepKernel{lazy(file, name, fast + tiling.particles.build_options()), tiling.particles.own};
   };
   const auto of_points = [&](const char* file, const char* name) {
-    return SweepKernel{kernel_of(file, name, fast + tiling.points.build_options()), 1};
+    return SweepKernel{lazy(file, name, fast + tiling.points.build_options()), 1};
   };
   continuity = of_particles("continuity.cl", "continuity");
   momentum = of_particles("momentum.cl", "momentum");
   wall_forces = of_particles("wall_forces.cl", "wall_forces");
   wall_forces.own = 1;  // an item is a run of slots
   gradient = of_particles("density_gradient.cl", "density_gradient");
-  if (elements) loads = of_points("wall_loads.cl", "wall_loads");
+  loads = of_points("wall_loads.cl", "wall_loads");
   packing = of_particles("packing.cl", "packing");
   facing_walls = of_points("facing_walls.cl", "facing_walls");
-  guard.kernel = kernel_of("guard.cl", "guard", options);
+  guard.kernel = lazy("guard.cl", "guard", options);
   points = of_points("points.cl", "points");
   surface = of_particles("points.cl", "surface");
   crowding = of_particles("crowding.cl", "crowding");
+  pairs = {lazy("pairs.cl", "pairs", options + tiling.particles.build_options()), tiling.particles.own};
   const compute::Program time_step(device, files, "time_step.cl", options);
   derive = time_step.kernel("derive_state");
   predict = time_step.kernel("predict");

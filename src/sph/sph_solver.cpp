@@ -146,7 +146,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
 
 template <class Real>
 void SphSolver<Real>::build_kernels() {
-  kernels_ = SolverKernels(device_, sources_, text_of(options_), tiling_, elements_);
+  kernels_ = SolverKernels(device_, sources_, text_of(options_), tiling_);
 }
 
 template <class Real>

@@ -106,14 +106,10 @@ FluidState SphSolver<Real>::download() {
   return fluid;
 }
 
-/// Built when it is asked for: no simulation needs it.
 template <class Real>
 PairCount SphSolver<Real>::count_pairs() {
-  const SweepKernel kernel{
-      compute::Program(device_, sources_, "pairs.cl", text_of(options_) + tiling_.particles.build_options()).kernel("pairs"),
-      tiling_.particles.own};
   compute::Buffer<int> counts(device_, 2 * static_cast<std::size_t>(count_));
-  sweep(kernel, count_, state_, walls_, counts);
+  sweep(kernels_.pairs, count_, state_, walls_, counts);
   const std::vector<int> values = counts.download();
   return {std::accumulate(values.begin(), values.begin() + count_, std::uint64_t{0}),
           std::accumulate(values.begin() + count_, values.end(), std::uint64_t{0})};
