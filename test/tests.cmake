@@ -49,6 +49,7 @@ endif()
 if(TARGET tests)
   add_dependencies(tests every_kernel)
 endif()
+list(APPEND program_tests oclgrind_sph)
 add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/watched_by_oclgrind.sh
   ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
 
@@ -74,8 +75,10 @@ if(TARGET wavetank_node)
   foreach(name wavetank_run_test plot_probes_test readme_test)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
+    list(APPEND program_tests node_${name})
   endforeach()
   add_test(NAME validation_compare_motion_test COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/compare_motion_test.py -v)
+  list(APPEND program_tests validation_compare_motion_test)
   file(GLOB live_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/node/*.test)
   foreach(live_test ${live_tests})
     add_rostest(${live_test})
@@ -92,12 +95,15 @@ set_tests_properties(${all_tests} PROPERTIES TIMEOUT 600
   ENVIRONMENT "PATH=${python_directory}:$ENV{PATH};ROS_HOSTNAME=localhost;ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache")
 
 # The longest first, so that none is left to run by itself when the others are done.
-foreach(test sph_variants_test sph_wall_motion_test sph_channel_flow_test simulation_bodies_test sph_thin_plate_test sph_guard_test sph_tiling_test
-        sph_moving_walls_test sph_shepard_figures_test)
-  set_tests_properties(${test} PROPERTIES COST 100)
+set(cost 100)
+foreach(test simulation_bodies_test oclgrind_sph sph_tiling_test sph_thin_plate_test sph_variants_test sph_channel_flow_test sph_wall_motion_test
+        sph_moving_walls_test node_wavetank_run_test sph_guard_test simulation_thin_bodies_test simulation_facing_walls_test simulation_links_test
+        simulation_still_water_test sph_shepard_figures_test)
+  set_tests_properties(${test} PROPERTIES COST ${cost})
+  math(EXPR cost "${cost} - 1")
 endforeach()
 
-# Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for other processes or watches memory runs by itself.
+# Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for ROS or measures times runs by itself.
 set(lone_tests ${all_tests})
-list(REMOVE_ITEM lone_tests ${unit_tests})
+list(REMOVE_ITEM lone_tests ${unit_tests} ${program_tests})
 set_tests_properties(${lone_tests} PROPERTIES RUN_SERIAL TRUE)
