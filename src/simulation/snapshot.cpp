@@ -12,7 +12,7 @@
 namespace wavetank {
 namespace {
 
-constexpr char magic[] = "wavetank snapshot 2\n";
+constexpr char magic[] = "wavetank snapshot 3\n";
 constexpr std::size_t magic_size = sizeof magic - 1;
 
 /// FNV-1a over 64 bits: finds truncation and damage, which is all that is asked of it.
@@ -92,7 +92,7 @@ Snapshot read_snapshot(const std::string& path) {
   const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) throw Error("cannot read the snapshot " + path + ": " + std::strerror(errno) + ".");
   if (bytes.size() < magic_size || std::memcmp(bytes.data(), magic, magic_size) != 0)
-    throw Error(path + " is not a snapshot of this version of wavetank: it does not begin with \"wavetank snapshot 2\".");
+    throw Error(path + " is not a snapshot of this version of wavetank: it does not begin with \"wavetank snapshot 3\".");
   const std::string damage =
       "the snapshot " + path + " is truncated or damaged: its checksum does not match its " + std::to_string(bytes.size()) + " bytes.";
   std::uint64_t stored = 0;

@@ -1,26 +1,9 @@
 #pragma once
 
-#include "grid_shape.h"
-#include "wavetank/scene/case.h"
-#include "wavetank/sph/discretisation.h"
-
 namespace wavetank {
 
-/// The parameter block of the kernels, in the kernels' own declaration; Real is float or double. Lengths relative to the grid's origin.
-template <class Real>
-struct KernelParameters {
-  using real = Real;
-#include "kernels/parameters.cl"
-};
-
-template <class Real>
-KernelParameters<Real> kernel_parameters(const Case& settled_case, const Layout& layout, const Discretisation& discretisation,
-                                         const GridShape& grid, int images);
-
-/// Fields of the arrays, as common.cl has them.
+/// Fields of the walls, and sizes, as the kernels have them.
 namespace field {
-enum State { x, y, z, u, v, w, compression, pressure, volume, swept, mass = swept, rest_x, rest_y, rest_z, steady, state_count };
-enum Rate { rate_u, rate_v, rate_w, rate_compression, rate_shepard, rate_clearance, rate_steady, rate_count };
 enum Wall {
   wall_x,
   wall_y,
@@ -59,7 +42,6 @@ constexpr int guard_owners = 2;
 constexpr int facing_owners = 2;
 constexpr int impulse_count = 6;
 constexpr int watch_count = 2;
-constexpr int sum_count = 8;
 constexpr int energy_count = 7;
 enum Report { report_step, report_speed, report_acceleration, report_alarms = 4, report_impulses = 12 };
 enum Alarm {

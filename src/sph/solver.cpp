@@ -11,9 +11,9 @@ namespace {
 
 /// A device gives memory in pieces of bounded size, and kernels count the values of a particle array with an int.
 void check_size(const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
-  const std::size_t values = particles * field::state_count;
+  const std::size_t fields = FieldTable(common_fields()).count(ParticleArray::state), values = particles * fields;
   constexpr std::size_t most_values = std::numeric_limits<int>::max();
-  const std::size_t most = std::min(most_values, device.max_allocation / bytes_a_value) / field::state_count;
+  const std::size_t most = std::min(most_values, device.max_allocation / bytes_a_value) / fields;
   if (values <= most_values && values * bytes_a_value <= device.max_allocation) return;
   throw Error("the case has " + std::to_string(particles) + " particles, but the device " + device.describe() + " can hold no more than " +
               std::to_string(most) + " of them: enlarge fluid/spacing, or choose another device.");

@@ -47,6 +47,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       chunks_(chunks_of(count_)),
       groups_(chunks_of(chunks_)),
       sources_(kernel_sources()),
+      fields_(common_fields()),
       centres_(centres),
       boxes_(owner_boxes(layout, centres)),
       moving_(layout.moving),
@@ -56,11 +57,11 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       case_walls_(scene, layout, discretisation),
       tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
       grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
-      state_(device, static_cast<std::size_t>(field::state_count) * stride_),
-      rates_(device, static_cast<std::size_t>(field::rate_count) * stride_),
+      state_(make_array(ParticleArray::state)),
+      rates_(make_array(ParticleArray::rates)),
       gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
-      half_(device, static_cast<std::size_t>(field::state_count) * stride_),
-      sum_(device, scene.numerics.integrator == Integrator::symplectic ? 0 : static_cast<std::size_t>(field::sum_count) * stride_),
+      half_(make_array(ParticleArray::state)),
+      sum_(scene.numerics.integrator == Integrator::symplectic ? Buffer(device, 0) : make_array(ParticleArray::sums)),
       id_(device, count_),
       spare_id_(device, count_),
       images_(tank_images(scene, layout, discretisation)),
@@ -83,10 +84,13 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   if (ghosts_ && moving)
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
   options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value()});
-  values_ = kernel_parameters<Real>(case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size()));
-  upload_parameters(values_);
+  const std::vector<ParameterRow>& parameters = common_parameters();
+  values_.emplace(parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
+  sources_["parameters.cl"] = parameters_header(parameters);
+  sources_["fields.cl"] = fields_.header();
+  upload_parameters(*values_);
   surroundings_.stride = stride_;
-  surroundings_.reach = values_.support;
+  surroundings_.reach = static_cast<Real>(discretisation_.support);
   surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), count_);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
@@ -121,21 +125,20 @@ WallMotions SphSolver<Real>::motions_at_start() const {
 }
 
 template <class Real>
-void SphSolver<Real>::upload_parameters(const KernelParameters<Real>& values) {
-  std::vector<char> bytes(sizeof values);
-  std::memcpy(bytes.data(), &values, sizeof values);
-  surroundings_.parameters = compute::Buffer<char>(device_, bytes);
+void SphSolver<Real>::upload_parameters(const ParameterBlock& values) {
+  surroundings_.parameters = compute::Buffer<char>(device_, values.bytes<Real>());
 }
 
 template <class Real>
 void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<Real> state(state_.size(), Real(0));
   std::vector<std::uint32_t> id(count_);
+  Real* const place[3] = {component(state, "x"), component(state, "y"), component(state, "z")};
+  Real* const mass = component(state, "mass");
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
-    const Eigen::Vector3d relative = layout.particles[i] - discretisation_.origin;
-    for (int axis = 0; axis < 3; ++axis) state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = static_cast<Real>(relative[axis]);
-    state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
+    for (int axis = 0; axis < 3; ++axis) place[axis][i] = static_cast<Real>(layout.particles[i][axis] - discretisation_.origin[axis]);
+    mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
   up_ = layout.up;
   levels_ = layout.levels;
@@ -143,6 +146,17 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   id_.upload(id);
   kernels_.derive.launch(count_);
   sort();
+}
+
+template <class Real>
+Eigen::Vector3d SphSolver<Real>::place_of(const std::vector<Real>& state, int i) const {
+  return Eigen::Vector3d(state[index_of("x", i)], state[index_of("y", i)], state[index_of("z", i)]) + discretisation_.origin;
+}
+
+template <class Real>
+Eigen::Vector3d SphSolver<Real>::velocity_of(const std::vector<Real>& state, int i) const {
+  return {static_cast<double>(state[index_of("u", i)]), static_cast<double>(state[index_of("v", i)]),
+          static_cast<double>(state[index_of("w", i)])};
 }
 
 template <class Real>
@@ -200,7 +214,7 @@ void SphSolver<Real>::sort() {
   surroundings_.grid.sort();
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
-  surroundings_.reach = values_.support;
+  surroundings_.reach = static_cast<Real>(discretisation_.support);
 }
 
 template <class Real>
@@ -361,11 +375,8 @@ void SphSolver<Real>::describe_offender(StepReport& report, int first) const {
   report.offender = first;
   report.offender_id = id_.download()[report.offender];
   const std::vector<Real> state = state_.download();
-  for (int axis = 0; axis < 3; ++axis) {
-    report.offender_position[axis] =
-        state[static_cast<std::size_t>(field::x + axis) * stride_ + report.offender] + discretisation_.origin[axis];
-    report.offender_velocity[axis] = state[static_cast<std::size_t>(field::u + axis) * stride_ + report.offender];
-  }
+  report.offender_position = place_of(state, first);
+  report.offender_velocity = velocity_of(state, first);
 }
 
 template class SphSolver<float>;

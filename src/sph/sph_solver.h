@@ -14,6 +14,8 @@
 #include "moving_walls.h"
 #include "row_sums.h"
 #include "surroundings.h"
+#include "tables/fields.h"
+#include "tables/parameters.h"
 #include "tank_images.h"
 #include "wall_wrenches.h"
 #include "wavetank/sph/solver.h"
@@ -55,8 +57,19 @@ class SphSolver final : public Solver, private StepEngine {
 
   WallMotions motions_at_start() const;
   std::vector<WallElement> facing_pieces() const;
-  void upload_parameters(const KernelParameters<Real>& values);
+  void upload_parameters(const ParameterBlock& values);
+  std::size_t index_of(const char* component, int particle, ParticleArray array = ParticleArray::state) const {
+    return static_cast<std::size_t>(fields_.at(array, component)) * stride_ + particle;
+  }
+  Buffer make_array(ParticleArray array) const { return Buffer(device_, static_cast<std::size_t>(fields_.count(array)) * stride_); }
+  /// Of a downloaded array, a component.
+  const Real* component(const std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
+  Real* component(std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
+  /// Of particle i of a downloaded state, m and m/s.
+  Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
+  Eigen::Vector3d velocity_of(const std::vector<Real>& state, int i) const;
   void upload_particles(const Layout& layout);
+  void upload_rates(const std::vector<Real>& by_id);
   compute::Arguments arguments() const;
   compute::Arguments arguments_of(Slot state) const;
   /// With the present options.
@@ -121,7 +134,8 @@ class SphSolver final : public Solver, private StepEngine {
   int groups_ = 0;  ///< chunks of chunks
   BuildOptions options_;
   compute::SourceFiles sources_;
-  KernelParameters<Real> values_;
+  FieldTable fields_;
+  std::optional<ParameterBlock> values_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners, as the layout has them
   std::vector<Box> boxes_;                ///< about the walls of each owner, likewise
   std::vector<bool> moving_;              ///< owners

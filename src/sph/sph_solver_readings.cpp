@@ -86,13 +86,14 @@ LostVolume SphSolver<Real>::lost_volume() {
   const std::vector<Real> fillings = fillings_.download(count_), state = state_.download();
   LostVolume volume;
   double most = 0;
+  const Real* const volumes = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
-    const auto value = [&](int f) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
-    volume.whole += value(field::volume);
-    if (fillings[i] > crowded) volume.lost += value(field::volume) * (1 - 1.0 / fillings[i]);
+    const double own = volumes[i];
+    volume.whole += own;
+    if (fillings[i] > crowded) volume.lost += own * (1 - 1.0 / fillings[i]);
     if (fillings[i] <= most) continue;
     most = fillings[i];
-    volume.place = Eigen::Vector3d(value(field::x), value(field::y), value(field::z)) + discretisation_.origin;
+    volume.place = place_of(state, i);
   }
   return volume;
 }
@@ -106,13 +107,12 @@ FluidState SphSolver<Real>::download() {
   surface_ = Buffer();
   FluidState fluid;
   fluid.id = id_.download();
-  const auto value = [&](int f, int i) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
   for (int i = 0; i < count_; ++i) {
-    fluid.position.push_back(Eigen::Vector3d(value(field::x, i), value(field::y, i), value(field::z, i)) + discretisation_.origin);
-    fluid.velocity.emplace_back(value(field::u, i), value(field::v, i), value(field::w, i));
-    fluid.pressure.push_back(value(field::pressure, i));
-    fluid.compression.push_back(value(field::compression, i));
-    fluid.mass.push_back(value(field::mass, i));
+    fluid.position.push_back(place_of(state, i));
+    fluid.velocity.push_back(velocity_of(state, i));
+    fluid.pressure.push_back(state[index_of("pressure", i)]);
+    fluid.compression.push_back(state[index_of("compression", i)]);
+    fluid.mass.push_back(state[index_of("mass", i)]);
     fluid.surface.push_back(surface[i] > Real(0.5) ? 1 : 0);
     fluid.shepard.push_back(surface[stride_ + i]);
   }

@@ -18,15 +18,14 @@ void SphSolver<Real>::set_hydrostatic() {
   const std::vector<std::uint32_t> id = id_.download();
   const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
   const double g = -case_.gravity.dot(up_);
+  Real* const compressions = component(state, "compression");
+  Real* const steady = component(state, "steady");
   for (int i = 0; i < count_; ++i) {
-    const auto coordinate = [&](int f) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
-    const Eigen::Vector3d place =
-        Eigen::Vector3d(coordinate(field::x), coordinate(field::y), coordinate(field::z)) + discretisation_.origin;
-    const double head = g * std::max(levels_[id[i]] - up_.dot(place), 0.0) / c2;  // p/(ρ₀c₀²)
+    const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;  // p/(ρ₀c₀²)
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
-    state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
-    state[static_cast<std::size_t>(field::steady) * stride_ + i] = Real(0);
+    compressions[i] = static_cast<Real>(compression);
+    steady[i] = Real(0);
   }
   state_.upload(state);
 }
@@ -34,8 +33,7 @@ void SphSolver<Real>::set_hydrostatic() {
 template <class Real>
 StepReport SphSolver<Real>::start_at_rest() {
   std::vector<Real> state = state_.download();
-  for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
-    std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0));
+  for (const char* name : {"u", "v", "w", "rest_x", "rest_y", "rest_z"}) std::fill_n(component(state, name), stride_, Real(0));
   state_.upload(state);
   kernels_.derive.launch(count_);
   find_accelerations(Slot::now);
@@ -62,15 +60,13 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
   if (duration == 0) return report;
   WallArrays<Real> supported = make_supported_walls();
 
-  KernelParameters<Real> damped = values_;
-  damped.damping = static_cast<Real>(4.0 * std::acos(-1.0) / discretisation_.sound_period);
+  ParameterBlock damped = *values_;
+  damped.set("damping", 4.0 * std::acos(-1.0) / discretisation_.sound_period);
   const Eigen::Vector3d rest = gravity_at_rest(), hydrostatic = rest / (discretisation_.sound_speed * discretisation_.sound_speed);
-  damped.gravity_x = static_cast<Real>(rest.x());
-  damped.gravity_y = static_cast<Real>(rest.y());
-  damped.gravity_z = static_cast<Real>(rest.z());
-  damped.hydrostatic_x = static_cast<Real>(hydrostatic.x());
-  damped.hydrostatic_y = static_cast<Real>(hydrostatic.y());
-  damped.hydrostatic_z = static_cast<Real>(hydrostatic.z());
+  for (int axis = 0; axis < 3; ++axis) {
+    damped.set(std::string("gravity_") + "xyz"[axis], rest[axis]);
+    damped.set(std::string("hydrostatic_") + "xyz"[axis], hydrostatic[axis]);
+  }
   const std::vector<Real> moving = surroundings_.motions.values();
   std::vector<Real> still = moving;
   for (int k = 0; k < 9; ++k) still[k] = k < 3 ? static_cast<Real>(rest[k]) : Real(0);  // of the frame
@@ -85,7 +81,7 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
     std::swap(loads_, loads);
     std::swap(walls_, supported);
     surroundings_.motions.set(device_, moving);
-    upload_parameters(values_);
+    upload_parameters(*values_);
   };
   const auto may_go_on = [&] { return report.valid() && report.time_step >= discretisation_.least_time_step; };
   try {

@@ -5,6 +5,7 @@
 #include "kernel_parameters.h"
 #include "wavetank/compute/buffer.h"
 #include "wavetank/geometry/thin_walls.h"
+#include "wavetank/sph/discretisation.h"
 
 namespace wavetank {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "facing_walls.h"
+#include "grid_shape.h"
 #include "integrators/integrator.h"
 #include "wavetank/sph/solver.h"
 

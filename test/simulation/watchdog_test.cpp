@@ -1,9 +1,8 @@
 // A simulation that may not go on says which particle, where, when and in which step, and stops.
-#include <cstring>
 #include <limits>
 
 #include "../../src/simulation/snapshot.h"
-#include "../../src/sph/kernel_parameters.h"
+#include "../sph/state_bytes.h"
 #include "simulation_fixture.h"
 
 namespace wavetank {
@@ -12,19 +11,14 @@ namespace {
 class Watchdog : public SimulationTest {
  protected:
   /// Runs the dam break a little, puts `value` into one field of the particle `id` of its snapshot, and goes on from there.
-  std::string violation_of(std::uint32_t id, int field, float value) {
+  std::string violation_of(std::uint32_t id, const std::string& field, float value) {
     Simulation simulation(scene);
     for (int k = 0; k < 7; ++k) simulation.advance();
     simulation.save(path("snapshot"));
     Snapshot snapshot = read_snapshot(path("snapshot"));
-    const std::size_t count = simulation.state().particles, stride = (count + 31) / 16 * 16;
-    std::size_t index = 0;
-    for (std::uint32_t stored = 0; index < count; ++index) {
-      std::memcpy(&stored, snapshot.fluid.data() + snapshot.fluid.size() - (count - index) * sizeof stored, sizeof stored);
-      if (stored == id) break;
-    }
-    EXPECT_LT(index, count);
-    std::memcpy(snapshot.fluid.data() + (static_cast<std::size_t>(field) * stride + index) * sizeof value, &value, sizeof value);
+    StateBytes<float> state(snapshot.fluid, simulation.state().particles);
+    state.set(field, id, value);
+    snapshot.fluid = state.bytes();
     write_snapshot(path("edited"), snapshot);
     simulation.restore(path("edited"));
     time = simulation.state().time + simulation.state().time_step;
@@ -55,18 +49,18 @@ class Watchdog : public SimulationTest {
 };
 
 TEST_F(Watchdog, ReportsAValueThatIsNotFinite) {
-  const std::string message = violation_of(12, field::w, std::numeric_limits<float>::quiet_NaN());
+  const std::string message = violation_of(12, "w", std::numeric_limits<float>::quiet_NaN());
   expect_parts(message, {"not finite", "particle ", "t = " + shown(time) + " s", "step 8"});
 }
 
 TEST_F(Watchdog, ReportsAParticleOutside) {
   // coordinates on the device begin half a spacing outside the tank
-  const std::string message = violation_of(12, field::x, 1.5f);
+  const std::string message = violation_of(12, "x", 1.5f);
   expect_parts(message, {"1 outside the tank", "particle 12 ", "(1.48", "t = " + shown(time) + " s", "step 8"});
 }
 
 TEST_F(Watchdog, ReportsAParticleThatIsTooFast) {
-  const std::string message = violation_of(12, field::w, 20.0f);
+  const std::string message = violation_of(12, "w", 20.0f);
   expect_parts(message, {"faster than half the speed of sound", "particle 12 ", "velocity", "t = " + shown(time) + " s", "step 8"});
 }
 
@@ -76,9 +70,9 @@ TEST_F(Watchdog, ReportsVolumeThatIsLost) {
   while (simulation.state().step % 200 != 199) simulation.advance();
   simulation.save(path("snapshot"));
   Snapshot snapshot = read_snapshot(path("snapshot"));
-  const std::size_t count = simulation.state().particles, stride = (count + 31) / 16 * 16;
-  float* const heights = reinterpret_cast<float*>(snapshot.fluid.data()) + static_cast<std::size_t>(field::z) * stride;
-  for (std::size_t i = 0; i < count; ++i) heights[i] *= 0.5F;
+  StateBytes<float> state(snapshot.fluid, simulation.state().particles);
+  for (std::size_t id = 0; id < state.count; ++id) state.set("z", id, 0.5F * state.get("z", id));
+  snapshot.fluid = state.bytes();
   write_snapshot(path("edited"), snapshot);
   simulation.advance();  // as it is, nothing is lost
   simulation.restore(path("edited"));

@@ -113,8 +113,8 @@ class Stepping {
   /// Of all water, along x.
   void set_speed(double speed) {
     StateBytes<float> state(solver_);
-    for (std::size_t i = 0; i < solver_.particle_count(); ++i) state.set(field::u, i, speed);
-    solver_.restore(state.bytes);
+    for (std::size_t i = 0; i < solver_.particle_count(); ++i) state.set("u", i, speed);
+    solver_.restore(state.bytes());
   }
   void advance_to(double until) {
     while (time_ + 0.5 * step_ < until) {

@@ -37,8 +37,8 @@ class Loose {
   }
   template <class State>
   void set(State state, double s) {
-    for (std::size_t i = 0; i < tank_.solver->particle_count(); ++i) state.set(field::compression, i, s);
-    tank_.solver->restore(state.bytes);
+    for (std::size_t i = 0; i < tank_.solver->particle_count(); ++i) state.set("compression", i, s);
+    tank_.solver->restore(state.bytes());
   }
   Tank tank_;
 };

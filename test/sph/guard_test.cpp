@@ -54,11 +54,11 @@ Outcome shoot(const Case& scene, const std::vector<Shot>& shots, int steps) {
   tank.solver->start();
   StateBytes<float> state(*tank.solver);
   for (std::size_t i = 0; i < shots.size(); ++i) {
-    const Shot& shot = shots[state.id(i)];
+    const Shot& shot = shots[i];
     const Vector3d velocity = shot_speed * (shot.at - shot.from).normalized();
-    for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[axis]);
+    for (int axis = 0; axis < 3; ++axis) state.set(velocities[axis], i, velocity[axis]);
   }
-  tank.solver->restore(state.bytes);
+  tank.solver->restore(state.bytes());
 
   const Vector3d size = std::get<BoxTank>(scene.tank.shape).size;
   const Box obstacle = std::get<Box>(scene.bodies[0].shape);
@@ -211,8 +211,8 @@ int throw_over_the_rim(bool splash_guard, double width, int steps, const Top& to
   tank.solver->start();
   StateBytes<float> state(*tank.solver);
   for (std::size_t i = 0; i < from.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[state.id(i)][axis]);
-  tank.solver->restore(state.bytes);
+    for (int axis = 0; axis < 3; ++axis) state.set(velocities[axis], i, velocity[i][axis]);
+  tank.solver->restore(state.bytes());
   double highest = 0, time = 0;
   for (int step = 0; step < steps; ++step) {
     const StepReport report = tank.solver->advance();
@@ -259,10 +259,10 @@ TEST(SplashGuard, KeepsSprayOverARoundTank) {
     tank.solver->start();
     StateBytes<float> state(*tank.solver);
     for (std::size_t i = 0; i < shots; ++i) {
-      const Vector3d velocity = outwards(0.26 * state.id(i)) + Vector3d(0, 0, 2.5);
-      for (int axis = 0; axis < 3; ++axis) state.set(field::u + axis, i, velocity[axis]);
+      const Vector3d velocity = outwards(0.26 * i) + Vector3d(0, 0, 2.5);
+      for (int axis = 0; axis < 3; ++axis) state.set(velocities[axis], i, velocity[axis]);
     }
-    tank.solver->restore(state.bytes);
+    tank.solver->restore(state.bytes());
     double highest = 0, time = 0;
     while (time < 0.8) {
       const StepReport report = tank.solver->advance();
@@ -305,16 +305,16 @@ class Corners : public ::testing::TestWithParam<WallElements> {
     for (int phase = 0; phase < 24; ++phase) {
       StateBytes<float> state = still;
       for (std::size_t i = 0; i < shots.size(); ++i) {
-        const Shot& shot = shots[state.id(i)];
+        const Shot& shot = shots[i];
         const Vector3d way = (shot.at - shot.from).normalized();
         const Vector3d place = shot.at - (0.12 + 0.02 * phase) * spacing * way - tank.discretisation.origin;
         for (int axis = 0; axis < 3; ++axis) {
           if (scene.dimensions == 2 && axis == 1) continue;
-          state.set(field::x + axis, i, place[axis]);
-          state.set(field::u + axis, i, speed * way[axis]);
+          state.set(places[axis], i, place[axis]);
+          state.set(velocities[axis], i, speed * way[axis]);
         }
       }
-      tank.solver->restore(state.bytes);
+      tank.solver->restore(state.bytes());
       for (int step = 0; step < 5; ++step) {
         const StepReport report = tank.solver->advance();
         ASSERT_TRUE(report.valid()) << "phase " << phase << ", step " << step << ": " << report.outside << " outside, " << report.too_fast
@@ -405,10 +405,10 @@ TEST_P(Corners, HoldBetweenTheFloorAndABoxThatMoves) {
     tank.solver->set_wall_motions(pusher.motions());
     StateBytes<float> state = still;
     const double away = (0.105 + 0.02 * phase) * spacing;
-    state.set(field::x, 0, 0.8 - away - tank.discretisation.origin.x());
-    state.set(field::z, 0, away - tank.discretisation.origin.z());
-    state.set(field::w, 0, -speed);
-    tank.solver->restore(state.bytes);
+    state.set("x", 0, 0.8 - away - tank.discretisation.origin.x());
+    state.set("z", 0, away - tank.discretisation.origin.z());
+    state.set("w", 0, -speed);
+    tank.solver->restore(state.bytes());
     for (int step = 0; step < 6; ++step) {
       ASSERT_TRUE(tank.solver->advance(&pusher).valid());
       const Vector3d place = tank.solver->download().position[0];

@@ -41,13 +41,13 @@ struct PeriodicSquare {
     // a standing wave along x, at rest: s = S cos(2π x/L)
     StateBytes<double> state(*solver);
     for (std::size_t i = 0; i < state.count; ++i) {
-      const double x = state.get(field::x, i) + discretisation.origin.x();
+      const double x = state.get("x", i) + discretisation.origin.x();
       const double compression = 0.01 * std::cos(2 * M_PI * x / side);
-      state.set(field::compression, i, compression);
-      state.set(field::pressure, i, scene.fluid.density * sound_speed * sound_speed * compression);
-      state.set(field::volume, i, state.get(field::mass, i) / (scene.fluid.density * (1 + compression)));
+      state.set("compression", i, compression);
+      state.set("pressure", i, scene.fluid.density * sound_speed * sound_speed * compression);
+      state.set("volume", i, state.get("mass", i) / (scene.fluid.density * (1 + compression)));
     }
-    solver->restore(state.bytes);
+    solver->restore(state.bytes());
   }
 
   /// Velocities along x by id, after `steps` equal steps over a quarter of the wave's period.

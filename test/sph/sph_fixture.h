@@ -4,13 +4,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "../../src/sph/kernel_parameters.h"
 #include "../common/box_case.h"
+#include "state_bytes.h"
 #include "wavetank/common/error.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/sph/solver.h"
@@ -52,39 +51,6 @@ inline Layout loose_particles(const Box& domain, double spacing, const std::vect
   layout.levels.assign(particles.size(), domain.max.z());
   return layout;
 }
-
-/// The bytes of a solver's state, by field and particle.
-template <class Real>
-class StateBytes {
- public:
-  explicit StateBytes(const Solver& solver) : StateBytes(solver.save(), solver.particle_count()) {}
-  StateBytes(std::vector<char> saved, std::size_t particles)
-      : bytes(std::move(saved)), count(particles), stride((particles + 31) / 16 * 16) {}
-
-  Real get(int field, std::size_t index) const {
-    Real value;
-    std::memcpy(&value, bytes.data() + (field * stride + index) * sizeof(Real), sizeof value);
-    return value;
-  }
-  void set(int field, std::size_t index, double value) {
-    const Real stored = static_cast<Real>(value);
-    std::memcpy(bytes.data() + (field * stride + index) * sizeof(Real), &stored, sizeof stored);
-  }
-  std::uint32_t id(std::size_t index) const {
-    std::uint32_t value;
-    std::memcpy(&value, bytes.data() + bytes.size() - (count - index) * sizeof value, sizeof value);
-    return value;
-  }
-  /// The place of the particle of this id.
-  std::size_t index_of(std::uint32_t wanted) const {
-    for (std::size_t i = 0; i < count; ++i)
-      if (id(i) == wanted) return i;
-    throw Error("no particle has the id " + std::to_string(wanted) + ".");
-  }
-
-  std::vector<char> bytes;
-  std::size_t count, stride;
-};
 
 inline bool all_finite(const FluidState& fluid) {
   for (std::size_t i = 0; i < fluid.id.size(); ++i)

@@ -12,37 +12,13 @@ typedef float real;
 // Always inlined: a call in the neighbour loop would keep the compiler from vectorising it.
 #define INLINE static inline __attribute__((always_inline))
 
+// From the rows of src/sph/tables.
 typedef struct {
 #include "parameters.cl"
 } parameters_t;
 
-// fluid state: the first FIELD_SWEPT are read by the neighbour loop, and exist at the half step too
-#define FIELD_X 0
-#define FIELD_Y 1
-#define FIELD_Z 2
-#define FIELD_U 3
-#define FIELD_V 4
-#define FIELD_W 5
-#define FIELD_COMPRESSION 6   // ρ/ρ₀ − 1
-#define FIELD_PRESSURE 7
-#define FIELD_VOLUME 8        // m/ρ
-#define FIELD_SWEPT 9
-#define FIELD_MASS 9
-#define FIELD_REST_X 10       // what rounding took from the position so far (compensated sum)
-#define FIELD_REST_Y 11
-#define FIELD_REST_Z 12
-#define FIELD_STEADY 13       // steady part of the density diffusion, 1/s
-#define FIELD_COUNT 14
-
-// rates of change
-#define RATE_U 0
-#define RATE_V 1
-#define RATE_W 2
-#define RATE_COMPRESSION 3
-#define RATE_SHEPARD 4        // γ
-#define RATE_CLEARANCE 5      // distance to the nearest wall element, at the least
-#define RATE_STEADY 6         // of FIELD_STEADY
-#define RATE_COUNT 7
+// Places of the fields in the arrays of the state, of the rates of change and of sums of these; from the rows of src/sph/tables.
+#include "fields.cl"
 
 // walls: fields that every kind has ...
 #define WALL_X 0              // the element's centre, or a point of the facet's plane

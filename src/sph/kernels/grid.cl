@@ -49,11 +49,12 @@ __kernel void scatter(int count, __global const int* slot_of, __global const int
   if (i < count) order[starts[slot_of[i]] + atomic_dec(&counts[slot_of[i]]) - 1] = i;
 }
 
-// Whether particle a goes before b in their slot: along x, so that tiles are short; of two at one place the one that went before.
-INLINE bool goes_before(__global const real* xs, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && a < b); }
+// Whether particle a goes before b in their slot: along x, so that tiles are short; of two at one place by their ids, so that the order follows from the
+// particles alone, and is the same after a snapshot.
+INLINE bool goes_before(__global const real* xs, __global const uint* id, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && id[a] < id[b]); }
 
 // The scatter's order within a slot depends on the device's scheduling.
-__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, int stride, __global int* order) {
+__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, int stride, __global const uint* id, __global int* order) {
   const int slot = get_global_id(0);
   if (slot >= slots) return;
   __global const real* xs = state + FIELD_X * stride;
@@ -61,7 +62,7 @@ __kernel void settle_slots(int slots, __global const int* starts, __global const
   for (int i = begin + 1; i < end; ++i) {
     const int moving = order[i];
     int place = i;
-    while (place > begin && goes_before(xs, moving, order[place - 1])) {
+    while (place > begin && goes_before(xs, id, moving, order[place - 1])) {
       order[place] = order[place - 1];
       --place;
     }

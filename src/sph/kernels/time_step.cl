@@ -112,10 +112,6 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 }
 
 // Runge and Kutta's, and the predictor and corrector: a sum of weighted rates of several states.
-#define SUM_X 0
-#define SUM_U 3
-#define SUM_COMPRESSION 6
-#define SUM_STEADY 7
 
 // Trial state: positions and velocities of a particle are set already.
 INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, int stride, int i, real compression, real steady) {

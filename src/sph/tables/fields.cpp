@@ -1,0 +1,80 @@
+#include "fields.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+constexpr const char* array_names[] = {"state", "rates", "sums"};
+constexpr const char* device_prefixes[] = {"FIELD_", "RATE_", "SUM_"};
+
+std::string upper(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+}  // namespace
+
+FieldTable::FieldTable(std::vector<FieldRow> rows) : rows_(std::move(rows)) {
+  for (const FieldRow& row : rows_)
+    for (const std::string& component : row.components) {
+      std::vector<std::string>& names = names_[static_cast<int>(row.array)];
+      if (std::find(names.begin(), names.end(), component) != names.end())
+        throw Error("two fields of the particles' " + std::string(array_names[static_cast<int>(row.array)]) + " are called \"" + component +
+                    "\"");
+      names.push_back(component);
+    }
+}
+
+int FieldTable::at(ParticleArray array, const std::string& component) const {
+  const std::vector<std::string>& all = names(array);
+  const auto found = std::find(all.begin(), all.end(), component);
+  if (found == all.end())
+    throw Error("no field of the particles' " + std::string(array_names[static_cast<int>(array)]) + " is called \"" + component + "\"");
+  return static_cast<int>(found - all.begin());
+}
+
+std::string FieldTable::header() const {
+  std::string text;
+  for (int array = 0; array < 3; ++array) {
+    int place = 0;
+    for (const FieldRow& row : rows_) {
+      if (static_cast<int>(row.array) != array) continue;
+      for (const std::string& component : row.components)
+        text += "#define " + (device_prefixes[array] + upper(component)) + " " + std::to_string(place++) + "  // " + row.meaning +
+                (row.unit.empty() ? "" : ", " + row.unit) + "\n";
+    }
+    text += "#define " + std::string(device_prefixes[array]) + "COUNT " + std::to_string(place) + "\n";
+  }
+  return text;
+}
+
+const std::vector<FieldRow>& common_fields() {
+  constexpr ParticleArray state = ParticleArray::state, rates = ParticleArray::rates, sums = ParticleArray::sums;
+  static const std::vector<FieldRow> rows{
+      {state, {"x", "y", "z"}, "m", "position, from the grid's origin", true},
+      {state, {"u", "v", "w"}, "m/s", "velocity", true},
+      {state, {"compression"}, "", "ρ/ρ₀ − 1", true},
+      {state, {"pressure"}, "Pa", "gauge pressure", true},
+      {state, {"volume"}, "m³", "m/ρ", true},
+      {state, {"mass"}, "kg", "mass", true},
+      {state, {"rest_x", "rest_y", "rest_z"}, "m", "what rounding took from the position so far (compensated sum)", true},
+      {state, {"steady"}, "1/s", "steady part of the density diffusion", true},
+      {rates, {"u", "v", "w"}, "m/s²", "acceleration"},
+      {rates, {"compression"}, "1/s", "ds/dt", true},  // a step may begin with that of the last one's end
+      {rates, {"shepard"}, "", "γ"},
+      {rates, {"clearance"}, "m", "distance to the nearest wall element, at the least"},
+      {rates, {"steady"}, "1/s²", "of the steady part of the density diffusion"},
+      {sums, {"x", "y", "z"}, "m/s", "of weighted velocities"},
+      {sums, {"u", "v", "w"}, "m/s²", "of weighted accelerations"},
+      {sums, {"compression"}, "1/s", "of weighted ds/dt"},
+      {sums, {"steady"}, "1/s²", "of weighted rates of the steady part"},
+  };
+  return rows;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,69 @@
+// A solver's snapshot: blocks by name and by particle's id, refused as a whole.
+#include "../common/error_of.h"
+#include "sph_fixture.h"
+
+namespace wavetank {
+namespace {
+
+std::vector<char> cut(const std::vector<char>& bytes, std::size_t less) { return {bytes.begin(), bytes.end() - less}; }
+
+class SolverSnapshot : public ::testing::Test {
+ protected:
+  SolverSnapshot() : tank(box_case(2)) { tank.pack_and_start(10); }
+
+  void step(int count) {
+    for (int k = 0; k < count; ++k) ASSERT_TRUE(tank.solver->advance().valid());
+  }
+  void expect_refused(const std::vector<char>& bytes, const std::string& words) {
+    const std::vector<char> before = tank.solver->save();
+    const std::string message = error_of([&] { tank.solver->restore(bytes); });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_EQ(tank.solver->save(), before) << words;
+  }
+
+  Tank tank;
+};
+
+TEST_F(SolverSnapshot, IsTakenUpAgainToTheBit) {
+  step(5);
+  const std::vector<char> saved = tank.solver->save();
+  step(20);
+  const std::vector<char> later = tank.solver->save();
+  tank.solver->restore(saved);
+  EXPECT_EQ(tank.solver->save(), saved);
+  step(20);
+  EXPECT_EQ(tank.solver->save(), later);
+}
+
+TEST_F(SolverSnapshot, DoesNotDependOnWhereTheDeviceKeepsAParticle) {
+  step(5);
+  StateBytes<float> state(*tank.solver);
+  const FluidState fluid = tank.solver->download();
+  bool moved = false;
+  for (std::size_t i = 0; i < fluid.id.size(); ++i) {
+    moved = moved || fluid.id[i] != i;
+    EXPECT_EQ(static_cast<float>(fluid.velocity[i].z()), state.get("w", fluid.id[i])) << i;
+    EXPECT_EQ(static_cast<float>(fluid.pressure[i]), state.get("pressure", fluid.id[i])) << i;
+  }
+  EXPECT_TRUE(moved) << "the device keeps all particles in the order of their ids: nothing is shown";
+}
+
+TEST_F(SolverSnapshot, IsRefusedAsAWhole) {
+  step(3);
+  const std::vector<char> saved = tank.solver->save();
+  step(3);
+  expect_refused(cut(saved, 1), "cut short");
+  std::vector<char> damaged = saved;
+  damaged[damaged.size() / 2] ^= 1;
+  expect_refused(damaged, "damaged");
+  SnapshotBlocks foreign(saved);
+  foreign.put("particles: salt", std::vector<float>{1});
+  expect_refused(foreign.bytes(), "\"particles: salt\", which this case does not know");
+  expect_refused(SnapshotBlocks().bytes(), "has no \"particles: x\"");
+  SnapshotBlocks other_size(saved);
+  other_size.put("particles: mass", std::vector<double>(tank.solver->particle_count()));
+  expect_refused(other_size.bytes(), "values of 8 bytes");
+}
+
+}  // namespace
+}  // namespace wavetank
