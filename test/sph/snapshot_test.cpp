@@ -9,7 +9,7 @@ std::vector<char> cut(const std::vector<char>& bytes, std::size_t less) { return
 
 class SolverSnapshot : public ::testing::Test {
  protected:
-  SolverSnapshot() : tank(box_case(2)) { tank.pack_and_start(10); }
+  SolverSnapshot() : tank(box_case(Vector3d(0.5, 0, 0.4), 0.25, 0.025)) { tank.pack_and_start(10); }
 
   void step(int count) {
     for (int k = 0; k < count; ++k) ASSERT_TRUE(tank.solver->advance().valid());

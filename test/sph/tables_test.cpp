@@ -1,5 +1,5 @@
 // What the kernels know as fields and numbers is said once, in rows.
-#include <limits>
+#include <cstring>
 
 #include "../../src/sph/tables/fields.h"
 #include "../../src/sph/tables/parameters.h"
@@ -25,16 +25,19 @@ TEST(FieldTable, GivesEachComponentItsPlaceInItsArray) {
 }
 
 TEST(FieldTable, RefusesNamesThatAreTakenOrUnknown) {
-  EXPECT_EQ(error_of([] { FieldTable({{state, {"x"}, "", ""}, {state, {"x"}, "", ""}}); }),
+  EXPECT_EQ(error_of([] {
+              FieldTable({{state, {"x"}, "", ""}, {state, {"x"}, "", ""}});
+            }),
             "two fields of the particles' state are called \"x\"");
   EXPECT_EQ(error_of([] { FieldTable({{state, {"x"}, "", ""}}).at(rates, "x"); }), "no field of the particles' rates is called \"x\"");
 }
 
 TEST(Parameters, AreLaidOutAsTheDeviceDeclaresThem) {
   const auto value = [](double number) { return [number](const ParameterSource&) { return number; }; };
-  const std::vector<ParameterRow> rows{{"steps", "", "how many", value(7), ParameterRow::Kind::integer}, {"width", "m", "of it", value(0.5)}};
+  const std::vector<ParameterRow> rows{{"steps", "", "how many", value(7), ParameterRow::Kind::integer},
+                                       {"width", "m", "of it", value(0.5)}};
   EXPECT_EQ(parameters_header(rows), "real width;  // of it, m\nint steps;  // how many\n");
-  const Tank tank(box_case(2));
+  const Tank tank(box_case(Vector3d(0.5, 0, 0.4), 0.25, 0.025));
   const ParameterSource source{tank.scene, tank.layout, tank.discretisation, {}, 0};
   ParameterBlock block(rows, source);
   const auto read = [&](auto real) {
