@@ -52,6 +52,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       moving_frame_(scene.tank.motion != Motion::fixed),
       ghosts_(scene.numerics.walls.method == WallMethod::ghost),
       elements_(kind_of(scene.numerics.walls) != WallKind::facets),
+      long_axes_(long_axes(discretisation, scene.numerics.precision)),
       case_walls_(scene, layout, discretisation),
       tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
       grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
@@ -81,7 +82,8 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   const bool moving = moving_frame_ || owners_move || belts;
   if (ghosts_ && moving)
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
-  options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value()});
+  options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(),
+                                   long_axes_});
   values_ = kernel_parameters<Real>(case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size()));
   upload_parameters(values_);
   surroundings_.stride = stride_;
@@ -132,8 +134,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<std::uint32_t> id(count_);
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
-    const Eigen::Vector3d relative = layout.particles[i] - discretisation_.origin;
-    for (int axis = 0; axis < 3; ++axis) state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = static_cast<Real>(relative[axis]);
+    set_place(state, i, layout.particles[i]);
     state[static_cast<std::size_t>(field::mass) * stride_ + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
   up_ = layout.up;
@@ -142,6 +143,27 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   id_.upload(id);
   kernels_.derive.launch(count_, surroundings_.parameters, count_, state_, stride_);
   sort();
+}
+
+template <class Real>
+void SphSolver<Real>::set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double wanted = place[axis] - discretisation_.origin[axis];
+    const Real stored = static_cast<Real>(wanted);
+    state[static_cast<std::size_t>(field::x + axis) * stride_ + i] = stored;
+    if ((long_axes_ >> axis & 1) != 0)
+      state[static_cast<std::size_t>(field::rest_x + axis) * stride_ + i] = static_cast<Real>(stored - wanted);
+  }
+}
+
+template <class Real>
+Eigen::Vector3d SphSolver<Real>::place_of(const std::vector<Real>& state, int i) const {
+  Eigen::Vector3d place = discretisation_.origin;
+  for (int axis = 0; axis < 3; ++axis) {
+    place[axis] += state[static_cast<std::size_t>(field::x + axis) * stride_ + i];
+    if ((long_axes_ >> axis & 1) != 0) place[axis] -= state[static_cast<std::size_t>(field::rest_x + axis) * stride_ + i];
+  }
+  return place;
 }
 
 template <class Real>
@@ -370,11 +392,9 @@ void SphSolver<Real>::describe_offender(StepReport& report, int first) const {
   report.offender = first;
   report.offender_id = id_.download()[report.offender];
   const std::vector<Real> state = state_.download();
-  for (int axis = 0; axis < 3; ++axis) {
-    report.offender_position[axis] =
-        state[static_cast<std::size_t>(field::x + axis) * stride_ + report.offender] + discretisation_.origin[axis];
+  report.offender_position = place_of(state, first);
+  for (int axis = 0; axis < 3; ++axis)
     report.offender_velocity[axis] = state[static_cast<std::size_t>(field::u + axis) * stride_ + report.offender];
-  }
 }
 
 template class SphSolver<float>;

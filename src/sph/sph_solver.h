@@ -55,6 +55,9 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<WallElement> facing_pieces() const;
   void upload_parameters(const KernelParameters<Real>& values);
   void upload_particles(const Layout& layout);
+  /// Of particle i of a downloaded state, m.
+  Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
+  void set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const;
   void build_kernels();
   /// Queues a kernel that goes over the neighbours of `count` particles, points or walls; `others` are its own arguments. The guard writes
   /// the state.
@@ -116,6 +119,7 @@ class SphSolver final : public Solver, private StepEngine {
   bool moving_frame_ = false;
   bool ghosts_ = false;
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
+  int long_axes_ = 0;      ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;
   GridShape grid_shape_;

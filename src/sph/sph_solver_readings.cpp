@@ -80,7 +80,7 @@ LostVolume SphSolver<Real>::lost_volume() {
     if (fillings[i] > crowded) volume.lost += value(field::volume) * (1 - 1.0 / fillings[i]);
     if (fillings[i] <= most) continue;
     most = fillings[i];
-    volume.place = Eigen::Vector3d(value(field::x), value(field::y), value(field::z)) + discretisation_.origin;
+    volume.place = place_of(state, i);
   }
   return volume;
 }
@@ -95,7 +95,7 @@ FluidState SphSolver<Real>::download() {
   fluid.id = id_.download();
   const auto value = [&](int f, int i) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
   for (int i = 0; i < count_; ++i) {
-    fluid.position.push_back(Eigen::Vector3d(value(field::x, i), value(field::y, i), value(field::z, i)) + discretisation_.origin);
+    fluid.position.push_back(place_of(state, i));
     fluid.velocity.emplace_back(value(field::u, i), value(field::v, i), value(field::w, i));
     fluid.pressure.push_back(value(field::pressure, i));
     fluid.compression.push_back(value(field::compression, i));

@@ -19,10 +19,7 @@ void SphSolver<Real>::set_hydrostatic() {
   const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
   const double g = -case_.gravity.dot(up_);
   for (int i = 0; i < count_; ++i) {
-    const auto coordinate = [&](int f) { return static_cast<double>(state[static_cast<std::size_t>(f) * stride_ + i]); };
-    const Eigen::Vector3d place =
-        Eigen::Vector3d(coordinate(field::x), coordinate(field::y), coordinate(field::z)) + discretisation_.origin;
-    const double head = g * std::max(levels_[id[i]] - up_.dot(place), 0.0) / c2;  // p/(ρ₀c₀²)
+    const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;  // p/(ρ₀c₀²)
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
     state[static_cast<std::size_t>(field::compression) * stride_ + i] = static_cast<Real>(compression);
@@ -34,8 +31,11 @@ void SphSolver<Real>::set_hydrostatic() {
 template <class Real>
 StepReport SphSolver<Real>::start_at_rest() {
   std::vector<Real> state = state_.download();
-  for (const int f : {field::u, field::v, field::w, field::rest_x, field::rest_y, field::rest_z})
-    std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0));
+  const auto clear = [&](int f) { std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(f) * stride_, stride_, Real(0)); };
+  for (int axis = 0; axis < 3; ++axis) {
+    clear(field::u + axis);
+    if ((long_axes_ >> axis & 1) == 0) clear(field::rest_x + axis);  // elsewhere they are part of the place
+  }
   state_.upload(state);
   kernels_.derive.launch(count_, surroundings_.parameters, count_, state_, stride_);
   accelerate(state_);

@@ -148,6 +148,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     wall_sweep_t b = {&walls, own.x, own.y, own.z, p->slope_scale * divergence[k], SHEPARD_START};
 #endif
 #if !GHOSTS
+    stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif

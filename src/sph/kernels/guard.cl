@@ -153,7 +153,8 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing + sqrt(moved);
   if (!near && !above_rim) return;
   wall_sweep_t a = {0};
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  stand_at(&walls, state, stride, i);
   a.walls = &walls;
   // the middle of the step is half a step of the first velocity away from its start
   a.step = time_step[0];

@@ -34,6 +34,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     add_repulsion(&b, p, images);
 #else
     add_film(&b, p, film, images);
+    stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
 #endif

@@ -248,7 +248,7 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
   bool near = false;
   for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {
     __global const real* fields = walls->fields + walls->list[k] * walls->stride;
-    near = near || fabs(plane_distance(fields, x, y, z)) < p->support;
+    near = near || fabs(plane_distance(walls, fields, x, y, z)) < p->support;
   }
   return near;
 #else

@@ -25,6 +25,9 @@ typedef struct {
   __global const int* edge_start;
   __global const int* edge_list;
   __global const real* edges;
+#if LONG_AXES
+  real rest[3];  // of the place of the particle whose turn it is
+#endif
 #if THIN_WALLS
   // of the particle whose turn it is:
   real share;    // with which it sees walls that thin ones hide from it
@@ -57,6 +60,9 @@ typedef struct {
   real reach;  // the support, and how far a particle may have moved since it was sorted
   int own;     // how many of the tile's particles count: the last tile may not be full
   places_t places;
+#if LONG_AXES
+  tile rest[3];  // of the places
+#endif
   const walls_t* walls;
 #if THIN_WALLS
   int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is
@@ -93,6 +99,9 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
   n->reach = reach;
   n->own = TILE_OWN;
   n->walls = walls;
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) n->rest[axis] = (tile)(R(0.0));
+#endif
 #if THIN_WALLS
   n->watched = NO_OWNER;
   for (int k = 0; k < TILE_OWN; ++k) n->transparency[k] = n->beyond[k] = R(0.0);
@@ -114,6 +123,9 @@ INLINE void neighbours_of(neighbours_t* n, __global const real* state, int strid
     n->places.y[k] = DIMENSIONS == 3 ? state[FIELD_Y * stride + first + k] : R(0.0);
     n->places.z[k] = state[FIELD_Z * stride + first + k];
   }
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) n->rest[axis] = own_values(state + (FIELD_REST_X + axis) * stride, first);
+#endif
 }
 
 // Of a point; in tiles of one.
@@ -126,6 +138,31 @@ INLINE void neighbours_at(neighbours_t* n, __global const real* state, int strid
 
 // A field of the candidates from j on.
 INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_values(n->state + field * n->stride, j); }
+
+// How far they are along one axis, from where `own` and the rests are. The bound on the difference, which nothing reaches, keeps fast-math from
+// adding up coordinates and rests in another order.
+INLINE tile near_way(const neighbours_t* n, int axis, int j, tile own) {
+  const tile way = near_field(n, FIELD_X + axis, j) - own;
+#if LONG_AXES
+  if (IS_LONG(axis)) return fmin(way, (tile)(FAR_AWAY)) - (near_field(n, FIELD_REST_X + axis, j) - n->rest[axis]);
+#endif
+  return way;
+}
+
+// From a particle at `own` to a wall, likewise.
+INLINE real wall_way(const walls_t* walls, int axis, real wall, real own) {
+#if LONG_AXES
+  if (IS_LONG(axis)) return fmin(wall - own, FAR_AWAY) + walls->rest[axis];
+#endif
+  return wall - own;
+}
+
+// Particle i sees the walls now.
+INLINE void stand_at(walls_t* walls, __global const real* state, int stride, int i) {
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) walls->rest[axis] = state[(FIELD_REST_X + axis) * stride + i];
+#endif
+}
 
 // Their volumes, as far as they count.
 INLINE tile near_volume(const neighbours_t* n, int j) {

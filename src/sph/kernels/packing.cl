@@ -53,6 +53,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   const real h = p->smoothing_length;
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
+    stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
 #if !GHOSTS
     const vector_t filled = film_sum(p, &walls, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);

@@ -104,6 +104,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, R(1.0), false, R(0.0), R(0.0), R(0.0)};
 #if !GHOSTS
+    stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif

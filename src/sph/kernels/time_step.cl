@@ -30,10 +30,23 @@ INLINE void leave_out(__global real* half_state, int stride, int i) {
   for (int axis = 0; axis < 3; ++axis) {
     half_state[(FIELD_X + axis) * stride + i] = R(0.0);
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
+    if (IS_LONG(axis)) half_state[(FIELD_REST_X + axis) * stride + i] = R(0.0);
   }
   half_state[FIELD_PRESSURE * stride + i] = R(0.0);
   half_state[FIELD_VOLUME * stride + i] = R(0.0);
 }
+
+// to's position = from's position + displacement, with what rounding loses carried on (Kahan).
+INLINE void move_from(__global const real* from, __global real* to, int stride, int axis, int i, real displacement) {
+  const int position = (FIELD_X + axis) * stride + i, rest = (FIELD_REST_X + axis) * stride + i;
+  const real before = from[position];
+  const real wanted = displacement - from[rest];
+  const real sum = before + wanted;
+  to[rest] = (sum - before) - wanted;
+  to[position] = sum;
+}
+
+INLINE void move(__global real* state, int stride, int axis, int i, real displacement) { move_from(state, state, stride, axis, i, displacement); }
 
 __kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, int stride) {
   const int i = get_global_id(0);
@@ -51,21 +64,12 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   for (int axis = 0; axis < 3; ++axis) {
     const real speed = state[(FIELD_U + axis) * stride + i];
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i] + half_step * speed;
+    if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * speed);
     half_state[(FIELD_U + axis) * stride + i] = speed;
   }
   const real compression = state[FIELD_COMPRESSION * stride + i] + half_step * rates[RATE_COMPRESSION * stride + i];
   derive(p, half_state, stride, i, compression, state[FIELD_MASS * stride + i]);
   if (is_lost(half_state, stride, i)) leave_out(half_state, stride, i);
-}
-
-// position += displacement, with what rounding loses carried on (Kahan).
-INLINE void move(__global real* state, int stride, int axis, int i, real displacement) {
-  __global real* position = state + (FIELD_X + axis) * stride + i;
-  __global real* rest = state + (FIELD_REST_X + axis) * stride + i;
-  const real wanted = displacement - *rest;
-  const real sum = *position + wanted;
-  *rest = (sum - *position) - wanted;
-  *position = sum;
 }
 
 // What leaves a periodic tank at one end comes in at the other. The rest of the compensated sum goes with it.
@@ -141,6 +145,7 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
     *sum_x = (first ? R(0.0) : *sum_x) + weight * speed;
     *sum_u = (first ? R(0.0) : *sum_u) + weight * acceleration;
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * speed;
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * speed);
     trial[(FIELD_U + axis) * stride + i] = now[(FIELD_U + axis) * stride + i] + step * acceleration;
   }
   const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
@@ -201,6 +206,7 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
     sum[(SUM_U + axis) * stride + i] = R(0.5) * acceleration;
     trial[(FIELD_U + axis) * stride + i] = speed + step * acceleration;
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * (speed + step * acceleration);
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * (speed + step * acceleration));
   }
   const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
   sum[SUM_COMPRESSION * stride + i] = R(0.5) * compression;
@@ -234,7 +240,12 @@ __kernel void move_packed(__constant const parameters_t* p, int count, __global 
   for (int axis = 0; axis < 3; ++axis) {
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i];  // for the guard: where it was
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
-    state[(FIELD_X + axis) * stride + i] += rates[(RATE_U + axis) * stride + i];
+    const real way = rates[(RATE_U + axis) * stride + i];
+    if (IS_LONG(axis)) {
+      move(state, stride, axis, i, way);
+    } else {
+      state[(FIELD_X + axis) * stride + i] += way;
+    }
     state[(FIELD_U + axis) * stride + i] = R(0.0);
   }
   wrap(p, state, stride, i);

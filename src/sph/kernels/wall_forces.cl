@@ -134,6 +134,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     finish_particles(&a, &sums);
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
+      stand_at(&walls, state, stride, first + own);
       LOOK_THROUGH(walls, a.near, own);
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, film, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
