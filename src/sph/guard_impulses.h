@@ -14,7 +14,7 @@ template <class Real>
 class GuardImpulses {
  public:
   /// `gives`: bodies, or the tank, get what the guard takes.
-  GuardImpulses(const compute::Device& device, bool gives, int particles, int stride, std::size_t owners);
+  GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners);
 
   bool gives() const { return gives_; }
   /// Queues the sums of what the guard has just taken, for the step's report.
@@ -34,7 +34,9 @@ class GuardImpulses {
  private:
   compute::Device device_;
   bool gives_;
-  int particles_, stride_, chunks_, owners_;
+  int particles_;
+  Stride stride_;
+  int chunks_, owners_;
   std::vector<double> values_;
   bool gathered_ = false;  ///< and not yet read
   compute::Buffer<Real> parts_;

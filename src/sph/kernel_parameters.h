@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
+
 #include "grid_shape.h"
 #include "wavetank/scene/case.h"
 #include "wavetank/sph/discretisation.h"
 
 namespace wavetank {
+
+/// From a field of an array to the next, as kernels take it (long): fields times particles pass what an int holds.
+using Stride = std::int64_t;
 
 /// The parameter block of the kernels, in the kernels' own declaration; Real is float or double. Lengths relative to the grid's origin.
 template <class Real>

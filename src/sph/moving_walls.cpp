@@ -188,7 +188,7 @@ void MovingWalls<Real>::move(WallArrays<Real>& walls, const std::vector<WallPose
   const bool elements = walls.kind != WallKind::facets;
   const compute::Buffer<int>& slots = resorted && elements ? all_ : slots_;
   const int count = static_cast<int>(slots.size());
-  const int from_field = elements ? walls.stride : 1, from_wall = elements ? 1 : walls.stride;
+  const Stride from_field = elements ? walls.stride : 1, from_wall = elements ? 1 : walls.stride;
   place_.launch(count, count, field_count_, from_field, from_wall, slots, from_, kinds_, poses_.on_device(), rest_, walls.fields);
 }
 

@@ -14,7 +14,7 @@ class ParticleGrid {
 
   /// Reorders `state` and `id` (through the spare ones, with which they are swapped).
   template <class Real>
-  void sort(const compute::Buffer<char>& parameters, compute::Buffer<Real>& state, compute::Buffer<Real>& spare_state, int stride,
+  void sort(const compute::Buffer<char>& parameters, compute::Buffer<Real>& state, compute::Buffer<Real>& spare_state, Stride stride,
             compute::Buffer<std::uint32_t>& id, compute::Buffer<std::uint32_t>& spare_id);
 
   const compute::Buffer<int>& starts() const { return starts_; }
@@ -27,7 +27,7 @@ class ParticleGrid {
 
 template <class Real>
 void ParticleGrid::sort(const compute::Buffer<char>& parameters, compute::Buffer<Real>& state, compute::Buffer<Real>& spare_state,
-                        int stride, compute::Buffer<std::uint32_t>& id, compute::Buffer<std::uint32_t>& spare_id) {
+                        Stride stride, compute::Buffer<std::uint32_t>& id, compute::Buffer<std::uint32_t>& spare_id) {
   count_.launch(particles_, parameters, particles_, state, stride, slot_of_, counts_);
   scan_blocks_.launch(blocks_, slots_, counts_, block_sums_);
   // a tree of three levels: of slots, blocks of them, and groups of blocks

@@ -9,12 +9,13 @@
 namespace wavetank {
 namespace {
 
-/// A device gives memory in pieces of bounded size, and kernels count the values of a particle array with an int.
+/// A device gives so much memory in all, in pieces of bounded size, and kernels count particles with an int.
 void check_size(const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
-  const std::size_t values = particles * field::state_count;
-  constexpr std::size_t most_values = std::numeric_limits<int>::max();
-  const std::size_t most = std::min(most_values, device.max_allocation / bytes_a_value) / field::state_count;
-  if (values <= most_values && values * bytes_a_value <= device.max_allocation) return;
+  constexpr std::size_t most_counted = std::numeric_limits<int>::max() / 2;
+  constexpr std::size_t values = 2 * field::state_count + field::rate_count;  // of a particle, at the least
+  const std::size_t most = std::min(
+      {most_counted, device.max_allocation / (field::state_count * bytes_a_value), device.global_memory / (values * bytes_a_value)});
+  if (particles <= most) return;
   throw Error("the case has " + std::to_string(particles) + " particles, but the device " + device.describe() + " can hold no more than " +
               std::to_string(most) + " of them: enlarge fluid/spacing, or choose another device.");
 }

@@ -82,8 +82,8 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   const bool moving = moving_frame_ || owners_move || belts;
   if (ghosts_ && moving)
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
-  options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(),
-                                   long_axes_});
+  options_ = build_options(
+      scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
   values_ = kernel_parameters<Real>(case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size()));
   upload_parameters(values_);
   surroundings_.stride = stride_;

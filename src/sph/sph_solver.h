@@ -108,7 +108,7 @@ class SphSolver final : public Solver, private StepEngine {
   Case case_;
   Discretisation discretisation_;
   int count_ = 0;
-  int stride_ = 0;
+  Stride stride_ = 0;
   int chunks_ = 0;
   BuildOptions options_;
   compute::SourceFiles sources_;

@@ -3,7 +3,7 @@
 #include "cells.cl"
 
 // counts must be zero; the scatter leaves them so.
-__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, int stride, __global int* slot_of, __global int* counts) {
+__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, long stride, __global int* slot_of, __global int* counts) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int slot = slot_index(p, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), state[FIELD_Z * stride + i]);
@@ -53,7 +53,7 @@ __kernel void scatter(int count, __global const int* slot_of, __global const int
 INLINE bool goes_before(__global const real* xs, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && a < b); }
 
 // The scatter's order within a slot depends on the device's scheduling.
-__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, int stride, __global int* order) {
+__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, long stride, __global int* order) {
   const int slot = get_global_id(0);
   if (slot >= slots) return;
   __global const real* xs = state + FIELD_X * stride;
@@ -69,7 +69,7 @@ __kernel void settle_slots(int slots, __global const int* starts, __global const
   }
 }
 
-__kernel void reorder(int count, __global const int* order, __global const real* from, __global real* to, int stride, __global const uint* id_from,
+__kernel void reorder(int count, __global const int* order, __global const real* from, __global real* to, long stride, __global const uint* id_from,
                       __global uint* id_to) {
   const int i = get_global_id(0);
   if (i >= count) return;

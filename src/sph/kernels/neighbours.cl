@@ -15,7 +15,7 @@ typedef struct {
   __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
   __global const int* list;
   __global const real* fields;
-  int stride;
+  long stride;
   __global const real* motions;
   // thin walls, that the water does not see through: each cell's part of a list of flat triangles
   __global const int* barrier_start;
@@ -38,7 +38,7 @@ typedef struct {
 
 // The arguments of a kernel that sweeps walls, or particles that walls may hide.
 #define WALL_ARGUMENTS                                                                                                             \
-  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
+  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, long wall_stride,               \
       __global const real *wall_motions, __global const int *barrier_start, __global const int *barrier_list, __global const real *barriers, \
       __global const int *edge_start, __global const int *edge_list, __global const real *edges
 // Elements are gone through one after the other, so that each field is an array; facets by a list, so that each facet's fields lie together.
@@ -56,7 +56,7 @@ typedef struct {
 
 typedef struct {
   __global const real* state;
-  int stride;
+  long stride;
   real reach;  // the support, and how far a particle may have moved since it was sorted
   int own;     // how many of the tile's particles count: the last tile may not be full
   places_t places;
@@ -89,11 +89,11 @@ INLINE vector_t turned(__global const real* q, real x, real y, real z) {
   return make_vector(q[0] * x + q[1] * y + q[2] * z, q[3] * x + q[4] * y + q[5] * z, q[6] * x + q[7] * y + q[8] * z);
 }
 
-INLINE vector_t velocity_of(__global const real* state, int stride, int i) {
+INLINE vector_t velocity_of(__global const real* state, long stride, int i) {
   return make_vector(state[FIELD_U * stride + i], DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0), state[FIELD_W * stride + i]);
 }
 
-INLINE void start_neighbours(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls) {
+INLINE void start_neighbours(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls) {
   n->state = state;
   n->stride = stride;
   n->reach = reach;
@@ -115,7 +115,7 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
 }
 
 // Of the particles from `first` on, TILE_OWN or as many as there are before `end`.
-INLINE void neighbours_of(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, int first, int end) {
+INLINE void neighbours_of(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls, int first, int end) {
   start_neighbours(n, state, stride, reach, walls);
   n->own = min(TILE_OWN, end - first);
   for (int k = 0; k < TILE_OWN; ++k) {
@@ -129,7 +129,7 @@ INLINE void neighbours_of(neighbours_t* n, __global const real* state, int strid
 }
 
 // Of a point; in tiles of one.
-INLINE void neighbours_at(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, real x, real y, real z) {
+INLINE void neighbours_at(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls, real x, real y, real z) {
   start_neighbours(n, state, stride, reach, walls);
   n->places.x[0] = x;
   n->places.y[0] = y;
@@ -158,7 +158,7 @@ INLINE real wall_way(const walls_t* walls, int axis, real wall, real own) {
 }
 
 // Particle i sees the walls now.
-INLINE void stand_at(walls_t* walls, __global const real* state, int stride, int i) {
+INLINE void stand_at(walls_t* walls, __global const real* state, long stride, int i) {
 #if LONG_AXES
   for (int axis = 0; axis < 3; ++axis) walls->rest[axis] = state[(FIELD_REST_X + axis) * stride + i];
 #endif
