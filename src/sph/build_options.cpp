@@ -14,6 +14,14 @@ bool anything_free(const Case& scene) {
          std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodyCase& body) { return body.motion == Motion::free; });
 }
 
+int long_axes(const Discretisation& d, Precision precision) {
+  constexpr double most = 4096;  // spacings, whose float32 coordinates have steps of 2.4e-4 of the spacing
+  int axes = 0;
+  for (int axis = 0; axis < 3 && precision == Precision::single; ++axis)
+    if (d.cells[axis] * d.support > most * d.spacing) axes |= 1 << axis;
+  return axes;
+}
+
 BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
@@ -33,6 +41,7 @@ BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
       {"MOVING_WALLS", choice.moving_walls},
       {"MOVING_FRAME", choice.moving_frame},
       {"THIN_WALLS", choice.thin_walls},
+      {"LONG_AXES", choice.long_axes},
       {"GUARD_IMPULSES", anything_free(scene)},
       {"SHEPARD_GEOMETRIC", shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic},
       {"SHEPARD_MONOLITHIC", shepard == ShepardFactor::monolithic},

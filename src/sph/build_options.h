@@ -5,6 +5,7 @@
 
 #include "wall_arrays.h"
 #include "wavetank/scene/case.h"
+#include "wavetank/sph/discretisation.h"
 
 namespace wavetank {
 
@@ -13,6 +14,9 @@ WallKind kind_of(const WallCase& walls);
 /// Something that what the guard takes can push: a free body, or a free tank.
 bool anything_free(const Case& scene);
 
+/// Axes, a bit each, along which the tank is so long that single precision does not tell places in it well apart.
+int long_axes(const Discretisation& discretisation, Precision precision);
+
 /// What of a case the kernels are compiled for.
 struct BuildChoice {
   bool use_double = false;
@@ -20,6 +24,7 @@ struct BuildChoice {
   bool moving_walls = false;  ///< or belts
   bool moving_frame = false;
   bool thin_walls = false;
+  int long_axes = 0;  ///< as long_axes() has them
 };
 
 /// Definitions with which kernels are compiled, by name.

@@ -5,7 +5,7 @@
 namespace wavetank {
 
 template <class Real>
-GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, int particles, int stride, std::size_t owners)
+GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners)
     : hits(device, particles),
       takers(device, gives ? field::guard_owners * static_cast<std::size_t>(stride) : 1),
       lost(device, gives ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1),

@@ -13,7 +13,7 @@ template <class Real>
 class GuardImpulses {
  public:
   /// `gives`: bodies, or the tank, get what the guard takes.
-  GuardImpulses(const compute::Device& device, bool gives, int particles, int stride, std::size_t owners);
+  GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners);
 
   /// Names what the guard writes. This must stay where it is once that is done.
   void add_to(compute::Arguments& arguments);
@@ -37,7 +37,9 @@ class GuardImpulses {
  private:
   compute::Device device_;
   bool gives_;
-  int particles_, stride_, chunks_, owners_;
+  int particles_;
+  Stride stride_;
+  int chunks_, owners_;
   std::vector<double> values_;
   bool gathered_ = false;  ///< and not yet read
   int value_count_;

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstdint>
+
 namespace wavetank {
+
+/// From a field of an array to the next, as kernels take it (long): fields times particles pass what an int holds.
+using Stride = std::int64_t;
 
 /// Fields of the walls, and sizes, as the kernels have them.
 namespace field {

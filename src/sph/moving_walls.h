@@ -66,7 +66,7 @@ class MovingWalls {
   compute::Buffer<Real> rest_;
   KeptBuffer<Real> poses_;
   compute::Buffer<int> kinds_, slots_, from_, all_;
-  int from_field_ = 0, from_wall_ = 0;  ///< steps in the fields
+  Stride from_field_ = 0, from_wall_ = 0;  ///< steps in the fields
   int moving_count_ = 0, all_count_ = 0;
   compute::BoundKernel place_moving_, place_all_;
 };

@@ -9,12 +9,15 @@
 namespace wavetank {
 namespace {
 
-/// A device gives memory in pieces of bounded size, and kernels count the values of a particle array with an int.
+/// A device gives so much memory in all, in pieces of bounded size, and kernels count particles with an int.
 void check_size(const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
-  const std::size_t fields = FieldTable(common_fields()).count(ParticleArray::state), values = particles * fields;
-  constexpr std::size_t most_values = std::numeric_limits<int>::max();
-  const std::size_t most = std::min(most_values, device.max_allocation / bytes_a_value) / fields;
-  if (values <= most_values && values * bytes_a_value <= device.max_allocation) return;
+  const FieldTable fields(common_fields());
+  const std::size_t largest = fields.count(ParticleArray::state);                     // array's values of a particle
+  const std::size_t least_values = 2 * largest + fields.count(ParticleArray::rates);  // of a particle, in all
+  constexpr std::size_t most_counted = std::numeric_limits<int>::max() / 2;
+  const std::size_t most =
+      std::min({most_counted, device.max_allocation / (largest * bytes_a_value), device.global_memory / (least_values * bytes_a_value)});
+  if (particles <= most) return;
   throw Error("the case has " + std::to_string(particles) + " particles, but the device " + device.describe() + " can hold no more than " +
               std::to_string(most) + " of them: enlarge fluid/spacing, or choose another device.");
 }

@@ -48,12 +48,14 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       groups_(chunks_of(chunks_)),
       sources_(kernel_sources()),
       fields_(common_fields()),
+      first_{fields_.at(ParticleArray::state, "x"), fields_.at(ParticleArray::state, "rest_x"), fields_.at(ParticleArray::state, "u")},
       centres_(centres),
       boxes_(owner_boxes(layout, centres)),
       moving_(layout.moving),
       moving_frame_(scene.tank.motion != Motion::fixed),
       ghosts_(scene.numerics.walls.method == WallMethod::ghost),
       elements_(kind_of(scene.numerics.walls) != WallKind::facets),
+      long_axes_(long_axes(discretisation, scene.numerics.precision)),
       case_walls_(scene, layout, discretisation),
       tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
       grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
@@ -83,7 +85,8 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   const bool moving = moving_frame_ || owners_move || belts;
   if (ghosts_ && moving)
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
-  options_ = build_options(scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value()});
+  options_ = build_options(
+      scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
   const std::vector<ParameterRow>& parameters = common_parameters();
   values_.emplace(parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
   sources_["parameters.cl"] = parameters_header(parameters);
@@ -133,11 +136,10 @@ template <class Real>
 void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<Real> state(state_.size(), Real(0));
   std::vector<std::uint32_t> id(count_);
-  Real* const place[3] = {component(state, "x"), component(state, "y"), component(state, "z")};
   Real* const mass = component(state, "mass");
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
-    for (int axis = 0; axis < 3; ++axis) place[axis][i] = static_cast<Real>(layout.particles[i][axis] - discretisation_.origin[axis]);
+    set_place(state, i, layout.particles[i]);
     mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
   }
   up_ = layout.up;
@@ -149,14 +151,30 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
 }
 
 template <class Real>
+void SphSolver<Real>::set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double wanted = place[axis] - discretisation_.origin[axis];
+    const Real stored = static_cast<Real>(wanted);
+    state[(first_.place + axis) * stride_ + i] = stored;
+    if ((long_axes_ >> axis & 1) != 0) state[(first_.rest + axis) * stride_ + i] = static_cast<Real>(stored - wanted);
+  }
+}
+
+template <class Real>
 Eigen::Vector3d SphSolver<Real>::place_of(const std::vector<Real>& state, int i) const {
-  return Eigen::Vector3d(state[index_of("x", i)], state[index_of("y", i)], state[index_of("z", i)]) + discretisation_.origin;
+  Eigen::Vector3d place = discretisation_.origin;
+  for (int axis = 0; axis < 3; ++axis) {
+    place[axis] += state[(first_.place + axis) * stride_ + i];
+    if ((long_axes_ >> axis & 1) != 0) place[axis] -= state[(first_.rest + axis) * stride_ + i];
+  }
+  return place;
 }
 
 template <class Real>
 Eigen::Vector3d SphSolver<Real>::velocity_of(const std::vector<Real>& state, int i) const {
-  return {static_cast<double>(state[index_of("u", i)]), static_cast<double>(state[index_of("v", i)]),
-          static_cast<double>(state[index_of("w", i)])};
+  Eigen::Vector3d velocity;
+  for (int axis = 0; axis < 3; ++axis) velocity[axis] = state[(first_.velocity + axis) * stride_ + i];
+  return velocity;
 }
 
 template <class Real>

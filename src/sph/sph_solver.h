@@ -66,6 +66,7 @@ class SphSolver final : public Solver, private StepEngine {
   const Real* component(const std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
   Real* component(std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
   /// Of particle i of a downloaded state, m and m/s.
+  void set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const;
   Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
   Eigen::Vector3d velocity_of(const std::vector<Real>& state, int i) const;
   void upload_particles(const Layout& layout);
@@ -119,6 +120,10 @@ class SphSolver final : public Solver, private StepEngine {
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
   };
+  /// Of the state's vectors, where their first components are.
+  struct FirstFields {
+    Stride place = 0, rest = 0, velocity = 0;
+  };
   /// What go_on_trial and its like are told.
   struct Trial {
     int first = 0;
@@ -129,12 +134,13 @@ class SphSolver final : public Solver, private StepEngine {
   Case case_;
   Discretisation discretisation_;
   int count_ = 0;
-  int stride_ = 0;
+  Stride stride_ = 0;
   int chunks_ = 0;
   int groups_ = 0;  ///< chunks of chunks
   BuildOptions options_;
   compute::SourceFiles sources_;
   FieldTable fields_;
+  FirstFields first_;
   std::optional<ParameterBlock> values_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners, as the layout has them
   std::vector<Box> boxes_;                ///< about the walls of each owner, likewise
@@ -142,6 +148,7 @@ class SphSolver final : public Solver, private StepEngine {
   bool moving_frame_ = false;
   bool ghosts_ = false;
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
+  int long_axes_ = 0;      ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;
   GridShape grid_shape_;

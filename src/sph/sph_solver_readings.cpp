@@ -107,12 +107,15 @@ FluidState SphSolver<Real>::download() {
   surface_ = Buffer();
   FluidState fluid;
   fluid.id = id_.download();
+  const Real* const pressure = component(state, "pressure");
+  const Real* const compression = component(state, "compression");
+  const Real* const mass = component(state, "mass");
   for (int i = 0; i < count_; ++i) {
     fluid.position.push_back(place_of(state, i));
     fluid.velocity.push_back(velocity_of(state, i));
-    fluid.pressure.push_back(state[index_of("pressure", i)]);
-    fluid.compression.push_back(state[index_of("compression", i)]);
-    fluid.mass.push_back(state[index_of("mass", i)]);
+    fluid.pressure.push_back(pressure[i]);
+    fluid.compression.push_back(compression[i]);
+    fluid.mass.push_back(mass[i]);
     fluid.surface.push_back(surface[i] > Real(0.5) ? 1 : 0);
     fluid.shepard.push_back(surface[stride_ + i]);
   }

@@ -33,7 +33,11 @@ void SphSolver<Real>::set_hydrostatic() {
 template <class Real>
 StepReport SphSolver<Real>::start_at_rest() {
   std::vector<Real> state = state_.download();
-  for (const char* name : {"u", "v", "w", "rest_x", "rest_y", "rest_z"}) std::fill_n(component(state, name), stride_, Real(0));
+  for (int axis = 0; axis < 3; ++axis) {
+    std::fill_n(state.begin() + (first_.velocity + axis) * stride_, stride_, Real(0));
+    if ((long_axes_ >> axis & 1) == 0)  // elsewhere they are part of the place
+      std::fill_n(state.begin() + (first_.rest + axis) * stride_, stride_, Real(0));
+  }
   state_.upload(state);
   kernels_.derive.launch(count_);
   find_accelerations(Slot::now);

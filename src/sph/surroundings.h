@@ -14,8 +14,8 @@ struct Surroundings {
   compute::Arguments arguments(const WallArrays<Real>& walls) const;
 
   compute::Buffer<char> parameters;
-  int stride = 0;  ///< of particles, from a field to the next
-  Real reach = 0;  ///< the support, and how far a particle may have moved since it was sorted, m
+  Stride stride = 0;  ///< of particles, from a field to the next
+  Real reach = 0;     ///< the support, and how far a particle may have moved since it was sorted, m
   ParticleGrid grid;
   KeptBuffer<Real> motions;  ///< field::frame_count values of the frame, field::motion_count of each owner
   Barriers<Real> barriers;

@@ -124,7 +124,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   std::vector<Vector3d> centres;
   for (const WallElement& element : elements) centres.push_back(element.centre);
   const CellOrder cells = sorted_by_cell(centres, d);
-  Fields<Real> values(field::rectangle_count, stride, false, d);
+  Fields<Real> values(field::rectangle_count, std::max(count, 1), false, d);
   for (int s = 0; s < count; ++s) {
     const WallElement& element = elements[cells.order[s]];
     values.set_place(field::wall_x, s, element.centre);

@@ -26,6 +26,10 @@ struct KernelType<std::uint32_t> {
   static constexpr const char* name = "uint";
 };
 template <>
+struct KernelType<std::int64_t> {
+  static constexpr const char* name = "long";
+};
+template <>
 struct KernelType<float> {
   static constexpr const char* name = "float";
 };

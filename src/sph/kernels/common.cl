@@ -9,6 +9,12 @@ typedef float real;
 #define R(x) x##f
 #endif
 
+// In a tank so long that float32 no longer tells places in it well apart, a place along its long axes (a bit each) is a field FIELD_X less its FIELD_REST_X.
+#ifndef LONG_AXES
+#define LONG_AXES 0
+#endif
+#define IS_LONG(axis) ((LONG_AXES >> (axis)) & 1)
+
 // Always inlined: a call in the neighbour loop would keep the compiler from vectorising it.
 #define INLINE static inline __attribute__((always_inline))
 

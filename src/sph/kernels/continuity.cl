@@ -76,7 +76,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   // of the dynamic density only: what hydrostatics explains is not diffused; twice this, once all is summed
   a->diffusion += slope_volume * (difference - explained_difference(a, p, relative, rx, ry, rz));
 #elif DIFFUSION_ANTUONO
-  const int stride = a->near.stride;
+  const long stride = a->near.stride;
   tile_vector_t gradient = make_tile_vector(near_values(a->gradient, j), DIMENSIONS == 3 ? near_values(a->gradient + stride, j) : (tile)(R(0.0)),
                                             near_values(a->gradient + 2 * stride, j));
 #if GHOSTS
@@ -101,7 +101,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 
 #include "sweep.cl"
 
-__kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride,
+__kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
                          real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
@@ -148,6 +148,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     wall_sweep_t b = {&walls, own.x, own.y, own.z, p->slope_scale * divergence[k], SHEPARD_START};
 #endif
 #if !GHOSTS
+    stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif

@@ -14,7 +14,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 
 #include "sweep.cl"
 
-__kernel void crowding(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void crowding(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                        WALL_ARGUMENTS, __global const real* images, __global real* fillings) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;

@@ -28,7 +28,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #include "sweep.cl"
 
 // Written for particle i, from its own sums. A matrix that is nearly singular (a particle of a thin jet) has no gradient to trust: taken as zero.
-INLINE void write_gradient(__global real* gradient, int stride, int i, vector_t sum, real xx, real xy, real xz, real yy, real yz, real zz) {
+INLINE void write_gradient(__global real* gradient, long stride, int i, vector_t sum, real xx, real xy, real xz, real yy, real yz, real zz) {
   const real least = R(1.0e-3);
 #if DIMENSIONS == 3
   const real c_xx = yy * zz - yz * yz, c_xy = xz * yz - xy * zz, c_xz = xy * yz - xz * yy;
@@ -47,7 +47,7 @@ INLINE void write_gradient(__global real* gradient, int stride, int i, vector_t 
 #endif
 }
 
-__kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride,
+__kernel void density_gradient(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
                                real reach, WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;

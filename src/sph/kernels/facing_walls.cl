@@ -94,7 +94,7 @@ INLINE bool may_face(__global const real* spheres, __global const real* poses, i
 
 // One piece of wall a work-item. `rest`: centre and area times normal, at rest; `poses`: of each owner, a rotation, row by row, and a shift. Results: where
 // it is, and of each slot the force that the piece gets from another owner, or NO_OWNER.
-__kernel void facing_walls(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void facing_walls(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                            WALL_ARGUMENTS, __global const real* images, __global const real* rest, __global const int* owners,
                            __global const real* poses, int owner_count, __global const real* spheres, __global real* places, __global int* others, __global real* forces) {
   const int s = get_global_id(0);

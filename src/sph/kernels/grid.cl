@@ -3,7 +3,7 @@
 #include "cells.cl"
 
 // counts must be zero; the scatter leaves them so.
-__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, int stride, __global int* slot_of, __global int* counts) {
+__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, long stride, __global int* slot_of, __global int* counts) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int slot = slot_index(p, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), state[FIELD_Z * stride + i]);
@@ -54,7 +54,7 @@ __kernel void scatter(int count, __global const int* slot_of, __global const int
 INLINE bool goes_before(__global const real* xs, __global const uint* id, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && id[a] < id[b]); }
 
 // The scatter's order within a slot depends on the device's scheduling.
-__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, int stride, __global const uint* id, __global int* order) {
+__kernel void settle_slots(int slots, __global const int* starts, __global const real* state, long stride, __global const uint* id, __global int* order) {
   const int slot = get_global_id(0);
   if (slot >= slots) return;
   __global const real* xs = state + FIELD_X * stride;
@@ -70,7 +70,7 @@ __kernel void settle_slots(int slots, __global const int* starts, __global const
   }
 }
 
-__kernel void reorder(int count, __global const int* order, __global const real* state, __global real* half_state, int stride, __global const uint* id,
+__kernel void reorder(int count, __global const int* order, __global const real* state, __global real* half_state, long stride, __global const uint* id,
                       __global uint* spare_id) {
   const int i = get_global_id(0);
   if (i >= count) return;

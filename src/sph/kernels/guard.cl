@@ -112,7 +112,7 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
 }
 
 // Between the sides of the tank's bounding box, its top's axis left out.
-INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* state, int stride, int i) {
+INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* state, long stride, int i) {
   const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
   const real lower[3] = {p->lower_x, p->lower_y, p->lower_z}, upper[3] = {p->upper_x, p->upper_y, p->upper_z};
   const real period[3] = {p->period_x, p->period_y, p->period_z};
@@ -132,7 +132,7 @@ INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* stat
   return hit;
 }
 
-__kernel void guard(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, int stride, real reach,
+__kernel void guard(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, long stride, real reach,
                     WALL_ARGUMENTS,
                     __global const real* images, __global const real* rates, __global const real* half_state, __global const real* time_step,
                     __global int* guard_hits, __global int* takers, __global real* lost) {
@@ -153,7 +153,8 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   const bool near = p->guard_distance > R(0.0) && rates[RATE_CLEARANCE * stride + i] <= p->guard_distance + R(0.25) * p->spacing + sqrt(moved);
   if (!near && !above_rim) return;
   wall_sweep_t a = {0};
-  const walls_t walls = WALLS_OF_ARGUMENTS;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  stand_at(&walls, state, stride, i);
   a.walls = &walls;
   // the middle of the step is half a step of the first velocity away from its start
   a.step = time_step[0];

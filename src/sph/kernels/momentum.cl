@@ -2,7 +2,7 @@
 #define WALL_FORCES 0
 #include "momentum_sums.cl"
 
-__kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                        WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
@@ -34,6 +34,7 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     add_repulsion(&b, p, images);
 #else
     add_film(&b, p, film, images);
+    stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
 #endif

@@ -248,7 +248,7 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
   bool near = false;
   for (int k = walls->start[cell]; k < walls->start[cell + 1]; ++k) {
     __global const real* fields = walls->fields + walls->list[k] * walls->stride;
-    near = near || fabs(plane_distance(fields, x, y, z)) < p->support;
+    near = near || fabs(plane_distance(walls, fields, x, y, z)) < p->support;
   }
   return near;
 #else
@@ -258,7 +258,7 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
 #endif
 
 // The sums of the tile that begins with particle `first`.
-INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, int end, __global const real* state, int stride, real reach,
+INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, int end, __global const real* state, long stride, real reach,
                        const walls_t* walls) {
   neighbours_of(&a->near, state, stride, reach, walls, first, end);
   a->u = own_values(state + FIELD_U * stride, first);
@@ -280,7 +280,7 @@ INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, 
 #endif
 }
 
-INLINE void start_wall_sums(wall_sweep_t* b, __constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls,
+INLINE void start_wall_sums(wall_sweep_t* b, __constant const parameters_t* p, int i, __global const real* state, long stride, const walls_t* walls,
                             __global const real* wall_loads) {
   b->walls = walls;
   b->wall_loads = wall_loads;

@@ -15,7 +15,7 @@ typedef struct {
   __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
   __global const int* list;
   __global const real* fields;
-  int stride;
+  long stride;
   __global const real* motions;
   // thin walls, that the water does not see through: each cell's part of a list of flat triangles
   __global const int* barrier_start;
@@ -25,6 +25,9 @@ typedef struct {
   __global const int* edge_start;
   __global const int* edge_list;
   __global const real* edges;
+#if LONG_AXES
+  real rest[3];  // of the place of the particle whose turn it is
+#endif
 #if THIN_WALLS
   // of the particle whose turn it is:
   real share;    // with which it sees walls that thin ones hide from it
@@ -35,7 +38,7 @@ typedef struct {
 
 // The arguments of a kernel that sweeps walls, or particles that walls may hide.
 #define WALL_ARGUMENTS                                                                                                             \
-  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, int wall_stride,               \
+  __global const int *wall_start, __global const int *wall_list, __global const real *wall_fields, long wall_stride,               \
       __global const real *wall_motions, __global const int *barrier_start, __global const int *barrier_list, __global const real *barriers, \
       __global const int *edge_start, __global const int *edge_list, __global const real *edges
 // Elements are gone through one after the other, so that each field is an array; facets by a list, so that each facet's fields lie together.
@@ -53,10 +56,13 @@ typedef struct {
 
 typedef struct {
   __global const real* state;
-  int stride;
+  long stride;
   real reach;  // the support, and how far a particle may have moved since it was sorted
   int own;     // how many of the tile's particles count: the last tile may not be full
   places_t places;
+#if LONG_AXES
+  tile rest[3];  // of the places
+#endif
   const walls_t* walls;
 #if THIN_WALLS
   int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is
@@ -83,16 +89,19 @@ INLINE vector_t turned(__global const real* q, real x, real y, real z) {
   return make_vector(q[0] * x + q[1] * y + q[2] * z, q[3] * x + q[4] * y + q[5] * z, q[6] * x + q[7] * y + q[8] * z);
 }
 
-INLINE vector_t velocity_of(__global const real* state, int stride, int i) {
+INLINE vector_t velocity_of(__global const real* state, long stride, int i) {
   return make_vector(state[FIELD_U * stride + i], DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0), state[FIELD_W * stride + i]);
 }
 
-INLINE void start_neighbours(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls) {
+INLINE void start_neighbours(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls) {
   n->state = state;
   n->stride = stride;
   n->reach = reach;
   n->own = TILE_OWN;
   n->walls = walls;
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) n->rest[axis] = (tile)(R(0.0));
+#endif
 #if THIN_WALLS
   n->watched = NO_OWNER;
   for (int k = 0; k < TILE_OWN; ++k) n->transparency[k] = n->beyond[k] = R(0.0);
@@ -106,7 +115,7 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, int st
 }
 
 // Of the particles from `first` on, TILE_OWN or as many as there are before `end`.
-INLINE void neighbours_of(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, int first, int end) {
+INLINE void neighbours_of(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls, int first, int end) {
   start_neighbours(n, state, stride, reach, walls);
   n->own = min(TILE_OWN, end - first);
   for (int k = 0; k < TILE_OWN; ++k) {
@@ -114,10 +123,13 @@ INLINE void neighbours_of(neighbours_t* n, __global const real* state, int strid
     n->places.y[k] = DIMENSIONS == 3 ? state[FIELD_Y * stride + first + k] : R(0.0);
     n->places.z[k] = state[FIELD_Z * stride + first + k];
   }
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) n->rest[axis] = own_values(state + (FIELD_REST_X + axis) * stride, first);
+#endif
 }
 
 // Of a point; in tiles of one.
-INLINE void neighbours_at(neighbours_t* n, __global const real* state, int stride, real reach, const walls_t* walls, real x, real y, real z) {
+INLINE void neighbours_at(neighbours_t* n, __global const real* state, long stride, real reach, const walls_t* walls, real x, real y, real z) {
   start_neighbours(n, state, stride, reach, walls);
   n->places.x[0] = x;
   n->places.y[0] = y;
@@ -126,6 +138,31 @@ INLINE void neighbours_at(neighbours_t* n, __global const real* state, int strid
 
 // A field of the candidates from j on.
 INLINE tile near_field(const neighbours_t* n, int field, int j) { return near_values(n->state + field * n->stride, j); }
+
+// How far they are along one axis, from where `own` and the rests are. The bound on the difference, which nothing reaches, keeps fast-math from
+// adding up coordinates and rests in another order.
+INLINE tile near_way(const neighbours_t* n, int axis, int j, tile own) {
+  const tile way = near_field(n, FIELD_X + axis, j) - own;
+#if LONG_AXES
+  if (IS_LONG(axis)) return fmin(way, (tile)(FAR_AWAY)) - (near_field(n, FIELD_REST_X + axis, j) - n->rest[axis]);
+#endif
+  return way;
+}
+
+// From a particle at `own` to a wall, likewise.
+INLINE real wall_way(const walls_t* walls, int axis, real wall, real own) {
+#if LONG_AXES
+  if (IS_LONG(axis)) return fmin(wall - own, FAR_AWAY) + walls->rest[axis];
+#endif
+  return wall - own;
+}
+
+// Particle i sees the walls now.
+INLINE void stand_at(walls_t* walls, __global const real* state, long stride, int i) {
+#if LONG_AXES
+  for (int axis = 0; axis < 3; ++axis) walls->rest[axis] = state[(FIELD_REST_X + axis) * stride + i];
+#endif
+}
 
 // Their volumes, as far as they count.
 INLINE tile near_volume(const neighbours_t* n, int j) {

@@ -38,7 +38,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #include "sweep.cl"
 
 // The displacement of one iteration, written as rates over a unit of time; RATE_COMPRESSION holds h |E|, for the report.
-__kernel void packing(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void packing(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                       WALL_ARGUMENTS, __global const real* images, __global const real* film, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
@@ -53,6 +53,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
   const real h = p->smoothing_length;
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, p->slope_scale * error.x[k], p->slope_scale * error.y[k], p->slope_scale * error.z[k], p->support};
+    stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
 #if !GHOSTS
     const vector_t filled = film_sum(p, &walls, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);

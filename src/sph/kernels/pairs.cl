@@ -20,7 +20,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #include "sweep.cl"
 
 // counts: the pairs of each particle, and then their candidates: all whose distance was found, those of a vector's lanes that go to waste among them.
-__kernel void pairs(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void pairs(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                     WALL_ARGUMENTS, __global const real* images, __global int* counts) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;

@@ -7,7 +7,7 @@
 #define KIND_VECTOR 2  // or of a vector, which is turned alone
 
 // slots: of the walls that are to be written; from: which of the walls at rest stands in each slot; kinds: of each field.
-__kernel void place_walls(int count, int field_count, int from_field, int from_wall, __global const int* slots, __global const int* from,
+__kernel void place_walls(int count, int field_count, long from_field, long from_wall, __global const int* slots, __global const int* from,
                           __global const int* kinds, __global const real* poses, __global const real* rest, __global real* fields) {
   const int k = get_global_id(0);
   if (k >= count) return;

@@ -67,7 +67,7 @@ INLINE real find_shepard(__constant const parameters_t* p, const walls_t* walls,
 
 #if TILE_OWN == 1
 // points: x, y, z fields; results: pressure (Pa; 0 in the air), Σ W V, γ. Points need not lie together: tiles of one.
-__kernel void points(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void points(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                      WALL_ARGUMENTS, __global const real* images, __global const real* points, __global real* results) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -91,7 +91,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
 #endif
 
 // Free surface: the particles whose kernel, beyond the walls' share, is not full. Written as 1 or 0, with γ beside it.
-__kernel void surface(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void surface(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                       WALL_ARGUMENTS, __global const real* images, __global real* results) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
@@ -104,6 +104,7 @@ __kernel void surface(__constant const parameters_t* p, int count, __global cons
   for (int k = 0; k < a.near.own; ++k) {
     wall_sweep_t b = {&walls, R(1.0), false, R(0.0), R(0.0), R(0.0)};
 #if !GHOSTS
+    stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif

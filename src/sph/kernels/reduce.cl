@@ -26,7 +26,7 @@
 #define ALARM_FIRST_INFECTED 7
 #define ALARM_COUNT 8
 
-__kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, int stride,
+__kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, long stride,
                            __global const int* guard_hits, __global real* watches, __global int* alarms) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
@@ -164,11 +164,11 @@ __kernel void sum_rows(int rows, int columns, __global const real* from, __globa
   const int group = item / columns, column = item % columns;
   if (group * REDUCE_CHUNK >= rows) return;
   real sum = R(0.0), rest = R(0.0);
-  for (int row = group * REDUCE_CHUNK; row < min(rows, (group + 1) * REDUCE_CHUNK); ++row) add_compensated(from[row * columns + column], &sum, &rest);
+  for (int row = group * REDUCE_CHUNK; row < min(rows, (group + 1) * REDUCE_CHUNK); ++row) add_compensated(from[(long)row * columns + column], &sum, &rest);
   to[item] = sum;
 }
 
-__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, int stride, __global real* energies) {
+__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global real* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
   real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
@@ -189,7 +189,7 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
 }
 
 // Packing's report: Σ (h |E|)².
-__kernel void packing_chunks(int count, __global const real* rates, int stride, __global real* sums) {
+__kernel void packing_chunks(int count, __global const real* rates, long stride, __global real* sums) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
   real sum = R(0.0), rest = R(0.0);
@@ -201,11 +201,11 @@ __kernel void packing_chunks(int count, __global const real* rates, int stride, 
 }
 
 // Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner: N·s, N·m·s.
-__kernel void guard_chunks(int count, __global const real* state, int stride, __global const int* guard_hits, __global const int* takers,
+__kernel void guard_chunks(int count, __global const real* state, long stride, __global const int* guard_hits, __global const int* takers,
                            __global const real* lost, int owners, __global const real* motions, __global real* impulses) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
-  __global real* sums = impulses + chunk * owners * IMPULSE_COUNT;
+  __global real* sums = impulses + (long)chunk * owners * IMPULSE_COUNT;
   for (int k = 0; k < owners * IMPULSE_COUNT; ++k) sums[k] = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     if (guard_hits[i] == 0) continue;

@@ -111,18 +111,13 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
 #if TILE_LANES == 1
 INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run, real x, real y, real z) {
   neighbours_t* near = &sums->near;
-  __global const real* xs = near->state + FIELD_X * near->stride;
-#if DIMENSIONS == 3
-  __global const real* ys = near->state + FIELD_Y * near->stride;
-#endif
-  __global const real* zs = near->state + FIELD_Z * near->stride;
 #if THIN_WALLS
   const places_t at = {{x}, {y}, {z}};
   if (near_barriers(near, p, &at)) {
     for (int j = run.begin; j < run.end; ++j) {
-      const real rx = xs[j] - x;
-      const real ry = DIMENSIONS == 3 ? near->state[FIELD_Y * near->stride + j] - y : R(0.0);
-      const real rz = zs[j] - z;
+      const real rx = near_way(near, 0, j, x);
+      const real ry = DIMENSIONS == 3 ? near_way(near, 1, j, y) : R(0.0);
+      const real rz = near_way(near, 2, j, z);
       const real r2 = rx * rx + ry * ry + rz * rz;
       if (r2 >= p->support_squared) continue;
       const sight_t sight = look_at(near, p, 0, x, y, z, j, rx, ry, rz, r2);
@@ -136,13 +131,9 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
   }
 #endif
   for (int j = run.begin; j < run.end; ++j) {
-    const real rx = xs[j] - x;
-#if DIMENSIONS == 3
-    const real ry = ys[j] - y;
-#else
-    const real ry = R(0.0);
-#endif
-    const real rz = zs[j] - z;
+    const real rx = near_way(near, 0, j, x);
+    const real ry = DIMENSIONS == 3 ? near_way(near, 1, j, y) : R(0.0);
+    const real rz = near_way(near, 2, j, z);
     const real r2 = rx * rx + ry * ry + rz * rz;
 #if GHOSTS
     if (sums->near.mirrored) {
@@ -182,13 +173,13 @@ INLINE block_t block_of(const neighbours_t* near, const int* run, int gone, tile
   block_t b;
   b.j = run[0] + gone;
   b.left = run[1] - b.j;
-  b.rx = near_field(near, FIELD_X, b.j) - x;
+  b.rx = near_way(near, 0, b.j, x);
 #if DIMENSIONS == 3
-  b.ry = near_field(near, FIELD_Y, b.j) - y;
+  b.ry = near_way(near, 1, b.j, y);
 #else
   b.ry = (tile)(R(0.0));
 #endif
-  b.rz = near_field(near, FIELD_Z, b.j) - z;
+  b.rz = near_way(near, 2, b.j, z);
   b.r2 = b.rx * b.rx + b.ry * b.ry + b.rz * b.rz + beyond_end(b.left);
   return b;
 }
@@ -308,6 +299,16 @@ INLINE places_t places_seen_by_image(__global const real* image, const places_t*
 #endif
 
 #if GHOSTS
+// As the image's originals see them, and back: a reflection is its own inverse.
+INLINE void turn_rests(neighbours_t* near) {
+#if LONG_AXES
+  const vector_t rest = turned(near->image + IMAGE_MATRIX, near->rest[0], near->rest[1], near->rest[2]);
+  near->rest[0] = rest.x;
+  near->rest[1] = rest.y;
+  near->rest[2] = rest.z;
+#endif
+}
+
 // The ghosts alone.
 INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   for (int k = 0; k < p->images; ++k) {
@@ -316,7 +317,9 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
     const places_t seen = places_seen_by_image(image, &sums->near.places);
     sums->near.mirrored = true;
     sums->near.image = image;
+    turn_rests(&sums->near);
     sweep_rows(sums, p, slot_start, &seen);
+    turn_rests(&sums->near);
     sums->near.mirrored = false;
   }
 }

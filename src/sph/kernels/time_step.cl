@@ -2,7 +2,7 @@
 #include "common.cl"
 
 // Equation of state, and what the neighbour loop needs beside it.
-INLINE void derive(__constant const parameters_t* p, __global real* state, int stride, int i, real compression, real mass) {
+INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real compression, real mass) {
 #if COLE
   const real ratio = R(1.0) + compression;
   const real cubed = ratio * ratio * ratio;
@@ -18,7 +18,7 @@ INLINE void derive(__constant const parameters_t* p, __global real* state, int s
   state[FIELD_VOLUME * stride + i] = mass / (p->density * (R(1.0) + compression));
 }
 
-INLINE bool is_lost(__global const real* state, int stride, int i) {
+INLINE bool is_lost(__global const real* state, long stride, int i) {
   bool lost = not_finite(state[FIELD_COMPRESSION * stride + i]);
   for (int axis = 0; axis < 3; ++axis) lost = lost || not_finite(state[(FIELD_X + axis) * stride + i]) || not_finite(state[(FIELD_U + axis) * stride + i]);
   return lost;
@@ -26,16 +26,29 @@ INLINE bool is_lost(__global const real* state, int stride, int i) {
 
 // A particle with a value that is not finite ends the run. Until the watchdog has seen it, it must not hide among others that it has made so too: others in
 // its tile, however far, since nothing times what is not finite is not finite.
-INLINE void leave_out(__global real* half_state, int stride, int i) {
+INLINE void leave_out(__global real* half_state, long stride, int i) {
   for (int axis = 0; axis < 3; ++axis) {
     half_state[(FIELD_X + axis) * stride + i] = R(0.0);
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
+    if (IS_LONG(axis)) half_state[(FIELD_REST_X + axis) * stride + i] = R(0.0);
   }
   half_state[FIELD_PRESSURE * stride + i] = R(0.0);
   half_state[FIELD_VOLUME * stride + i] = R(0.0);
 }
 
-__kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, int stride) {
+// to's position = from's position + displacement, with what rounding loses carried on (Kahan).
+INLINE void move_from(__global const real* from, __global real* to, long stride, int axis, int i, real displacement) {
+  const long position = (FIELD_X + axis) * stride + i, rest = (FIELD_REST_X + axis) * stride + i;
+  const real before = from[position];
+  const real wanted = displacement - from[rest];
+  const real sum = before + wanted;
+  to[rest] = (sum - before) - wanted;
+  to[position] = sum;
+}
+
+INLINE void move(__global real* state, long stride, int axis, int i, real displacement) { move_from(state, state, stride, axis, i, displacement); }
+
+__kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, long stride) {
   const int i = get_global_id(0);
   if (i < count) derive(p, state, stride, i, state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
 }
@@ -43,7 +56,7 @@ __kernel void derive_state(__constant const parameters_t* p, int count, __global
 // Symplectic (drift, kick, drift): positions and compressions go half a step with what they had, velocities a whole one with the forces of the middle,
 // positions and compressions the other half with the new velocities. Position and velocity, compression and velocity then advance as conjugate pairs, and
 // the sound between a lone particle and a wall neither grows nor decays: the explicit midpoint rule lets it grow by (ω Δt)⁴/8 a step.
-__kernel void predict(__constant const parameters_t* p, int count, __global const real* state, __global real* half_state, int stride,
+__kernel void predict(__constant const parameters_t* p, int count, __global const real* state, __global real* half_state, long stride,
                       __global const real* rates, __global const real* time_step) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -51,6 +64,7 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   for (int axis = 0; axis < 3; ++axis) {
     const real speed = state[(FIELD_U + axis) * stride + i];
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i] + half_step * speed;
+    if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * speed);
     half_state[(FIELD_U + axis) * stride + i] = speed;
   }
   const real compression = state[FIELD_COMPRESSION * stride + i] + half_step * rates[RATE_COMPRESSION * stride + i];
@@ -58,18 +72,8 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   if (is_lost(half_state, stride, i)) leave_out(half_state, stride, i);
 }
 
-// position += displacement, with what rounding loses carried on (Kahan).
-INLINE void move(__global real* state, int stride, int axis, int i, real displacement) {
-  __global real* position = state + (FIELD_X + axis) * stride + i;
-  __global real* rest = state + (FIELD_REST_X + axis) * stride + i;
-  const real wanted = displacement - *rest;
-  const real sum = *position + wanted;
-  *rest = (sum - *position) - wanted;
-  *position = sum;
-}
-
 // What leaves a periodic tank at one end comes in at the other. The rest of the compensated sum goes with it.
-INLINE void wrap(__constant const parameters_t* p, __global real* state, int stride, int i) {
+INLINE void wrap(__constant const parameters_t* p, __global real* state, long stride, int i) {
   const real period[3] = {p->period_x, p->period_y, p->period_z};
   const real lower[3] = {p->lower_x, p->lower_y, p->lower_z};
   for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +86,7 @@ INLINE void wrap(__constant const parameters_t* p, __global real* state, int str
 }
 
 // The kick, and the second drift of the positions; compressions wait at the middle for the continuity of the new positions and velocities.
-__kernel void correct(__constant const parameters_t* p, int count, __global real* state, __global const real* half_state, int stride,
+__kernel void correct(__constant const parameters_t* p, int count, __global real* state, __global const real* half_state, long stride,
                       __global const real* rates, __global const real* time_step) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -102,7 +106,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
 }
 
 // The second drift of the compressions, and a step of the diffusion's steady part.
-__kernel void compress(__constant const parameters_t* p, int count, __global real* state, int stride, __global const real* rates,
+__kernel void compress(__constant const parameters_t* p, int count, __global real* state, long stride, __global const real* rates,
                        __global const real* time_step) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -114,7 +118,7 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 // Runge and Kutta's, and the predictor and corrector: a sum of weighted rates of several states.
 
 // Trial state: positions and velocities of a particle are set already.
-INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, int stride, int i, real compression, real steady) {
+INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, long stride, int i, real compression, real steady) {
   trial[FIELD_STEADY * stride + i] = steady;
   derive(p, trial, stride, i, compression, now[FIELD_MASS * stride + i]);
   if (!is_lost(trial, stride, i)) return;
@@ -123,7 +127,7 @@ INLINE void finish_trial(__constant const parameters_t* p, __global const real* 
 }
 
 // sum (+)= weight rates, of the trial state or, first, of that which is now; trial = now + part Δt rates.
-__kernel void go_on_trial(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, int stride, __global const real* rates,
+__kernel void go_on_trial(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, long stride, __global const real* rates,
                           __global const real* time_step, __global real* sum, int first, real weight, real part) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -137,6 +141,7 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
     *sum_x = (first ? R(0.0) : *sum_x) + weight * speed;
     *sum_u = (first ? R(0.0) : *sum_u) + weight * acceleration;
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * speed;
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * speed);
     trial[(FIELD_U + axis) * stride + i] = now[(FIELD_U + axis) * stride + i] + step * acceleration;
   }
   const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
@@ -149,7 +154,7 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
 
 // The rest of a step that began at the given place: compression and steady part by the sum and the weighted rates of the trial state, and what the guard and
 // the next step need. What was found of the walls' distance at the trial state's place counts from the start.
-INLINE void end_step(__constant const parameters_t* p, __global real* now, __global real* trial, int stride, int i, __global real* rates, const real* start,
+INLINE void end_step(__constant const parameters_t* p, __global real* now, __global real* trial, long stride, int i, __global real* rates, const real* start,
                      real step, __global const real* sum, real weight) {
   const real compression =
       now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + weight * rates[RATE_COMPRESSION * stride + i]);
@@ -169,7 +174,7 @@ INLINE void end_step(__constant const parameters_t* p, __global real* now, __glo
 }
 
 // now += Δt (sum + weight rates), of the trial state.
-__kernel void take_sum(__constant const parameters_t* p, int count, __global real* now, __global real* trial, int stride, __global real* rates,
+__kernel void take_sum(__constant const parameters_t* p, int count, __global real* now, __global real* trial, long stride, __global real* rates,
                        __global const real* time_step, __global const real* sum, real weight) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -186,7 +191,7 @@ __kernel void take_sum(__constant const parameters_t* p, int count, __global rea
 }
 
 // trial: u* = u + Δt f*, x* = x + Δt u*, s* = s + Δt r*; half of the rates go into the sum.
-__kernel void predict_end(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, int stride, __global const real* rates,
+__kernel void predict_end(__constant const parameters_t* p, int count, __global const real* now, __global real* trial, long stride, __global const real* rates,
                           __global const real* time_step, __global real* sum) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -197,6 +202,7 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
     sum[(SUM_U + axis) * stride + i] = R(0.5) * acceleration;
     trial[(FIELD_U + axis) * stride + i] = speed + step * acceleration;
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * (speed + step * acceleration);
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * (speed + step * acceleration));
   }
   const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
   sum[SUM_COMPRESSION * stride + i] = R(0.5) * compression;
@@ -205,7 +211,7 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
 }
 
 // now: u += Δt (sum + f**/2), s likewise, x += Δt (u before + u after)/2.
-__kernel void correct_end(__constant const parameters_t* p, int count, __global real* now, __global real* trial, int stride, __global real* rates,
+__kernel void correct_end(__constant const parameters_t* p, int count, __global real* now, __global real* trial, long stride, __global real* rates,
                           __global const real* time_step, __global const real* sum) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -223,14 +229,19 @@ __kernel void correct_end(__constant const parameters_t* p, int count, __global 
 }
 
 // One iteration of packing: the rates hold displacements.
-__kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, __global real* half_state, int stride,
+__kernel void move_packed(__constant const parameters_t* p, int count, __global real* state, __global real* half_state, long stride,
                           __global const real* rates) {
   const int i = get_global_id(0);
   if (i >= count) return;
   for (int axis = 0; axis < 3; ++axis) {
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i];  // for the guard: where it was
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
-    state[(FIELD_X + axis) * stride + i] += rates[(RATE_U + axis) * stride + i];
+    const real way = rates[(RATE_U + axis) * stride + i];
+    if (IS_LONG(axis)) {
+      move(state, stride, axis, i, way);
+    } else {
+      state[(FIELD_X + axis) * stride + i] += way;
+    }
     state[(FIELD_U + axis) * stride + i] = R(0.0);
   }
   wrap(p, state, stride, i);

@@ -171,16 +171,17 @@ INLINE segment_t segment_terms(real d, real from, real to) {
 #endif
 
 // Of (x, y, z) from the plane of the facet with these fields; positive on the fluid's side.
-INLINE real plane_distance(__global const real* fields, real x, real y, real z) {
-  const real distance = fields[WALL_NORMAL_X] * (fields[WALL_X] - x) + fields[WALL_NORMAL_Z] * (fields[WALL_Z] - z);
-  return DIMENSIONS == 3 ? distance + fields[WALL_NORMAL_Y] * (fields[WALL_Y] - y) : distance;
+INLINE real plane_distance(const walls_t* walls, __global const real* fields, real x, real y, real z) {
+  const real distance =
+      fields[WALL_NORMAL_X] * wall_way(walls, 0, fields[WALL_X], x) + fields[WALL_NORMAL_Z] * wall_way(walls, 2, fields[WALL_Z], z);
+  return DIMENSIONS == 3 ? distance + fields[WALL_NORMAL_Y] * wall_way(walls, 1, fields[WALL_Y], y) : distance;
 }
 
 INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   __global const real* fields = walls->fields + s * walls->stride;
   contact_t c;
   c.normal = make_vector(fields[WALL_NORMAL_X], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y] : R(0.0), fields[WALL_NORMAL_Z]);
-  c.distance = plane_distance(fields, x, y, z);
+  c.distance = plane_distance(walls, fields, x, y, z);
   c.weight = R(0.0);
   c.shepard = R(0.0);
   c.moment = make_vector(R(0.0), R(0.0), R(0.0));
@@ -195,9 +196,9 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
   vector_t out[3], corner[3];
   for (int k = 0; k < 3; ++k) {
     const int field = WALL_EDGES + EDGE_COUNT * k;
-    const real bx = (fields[field] - x) * p->inverse_smoothing;
-    const real by = (fields[field + 1] - y) * p->inverse_smoothing;
-    const real bz = (fields[field + 2] - z) * p->inverse_smoothing;
+    const real bx = wall_way(walls, 0, fields[field], x) * p->inverse_smoothing;
+    const real by = wall_way(walls, 1, fields[field + 1], y) * p->inverse_smoothing;
+    const real bz = wall_way(walls, 2, fields[field + 2], z) * p->inverse_smoothing;
     const vector_t way = make_vector(fields[field + 3], fields[field + 4], fields[field + 5]);
     const real sign = fields[field + 7] > R(0.0) ? R(1.0) : R(-1.0);
     // the base and the direction belong to the edge, not to the facet, so that the two facets that share it see exactly opposite distances
@@ -240,7 +241,8 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
     along_z -= e.moment * out[k].z;
   }
 #else
-  const real bx = (fields[WALL_EDGES] - x) * p->inverse_smoothing, bz = (fields[WALL_EDGES + 2] - z) * p->inverse_smoothing;
+  const real bx = wall_way(walls, 0, fields[WALL_EDGES], x) * p->inverse_smoothing;
+  const real bz = wall_way(walls, 2, fields[WALL_EDGES + 2], z) * p->inverse_smoothing;
   const real wx = fields[WALL_EDGES + 3], wz = fields[WALL_EDGES + 5];
   const real from = wx * bx + wz * bz;
   const real to = from + fields[WALL_EDGES + 6] * p->inverse_smoothing;
@@ -315,7 +317,8 @@ INLINE contact_t part_before(__constant const parameters_t* p, const walls_t* wa
     }
   }
 #else
-  const real bx = (fields[WALL_EDGES] - x) * p->inverse_smoothing, bz = (fields[WALL_EDGES + 2] - z) * p->inverse_smoothing;
+  const real bx = wall_way(walls, 0, fields[WALL_EDGES], x) * p->inverse_smoothing;
+  const real bz = wall_way(walls, 2, fields[WALL_EDGES + 2], z) * p->inverse_smoothing;
   const real wx = fields[WALL_EDGES + 3], wz = fields[WALL_EDGES + 5];
   real from = wx * bx + wz * bz;
   real to = from + fields[WALL_EDGES + 6] * p->inverse_smoothing;

@@ -35,7 +35,7 @@ INLINE vector_t mixed(real a, vector_t x, real b, vector_t y) { return make_vect
 #define LEAST_TOUCH R(5.0e-6)
 
 // Whether particle i touches walls of the owner.
-INLINE bool touches(__constant const parameters_t* p, int i, __global const real* state, int stride, const walls_t* walls, __global const real* images,
+INLINE bool touches(__constant const parameters_t* p, int i, __global const real* state, long stride, const walls_t* walls, __global const real* images,
                     int owner) {
 #if GHOSTS
   return true;
@@ -54,7 +54,7 @@ typedef struct {
 } owner_force_t;
 
 // What particle i, the k-th of its tile, does to the walls of one owner, which it touches.
-INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int k, const pair_sums_t* sums, __global const real* state, int stride,
+INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int k, const pair_sums_t* sums, __global const real* state, long stride,
                                     const walls_t* walls, __global const real* images, __global const real* wall_loads, __global const real* film,
                                     int owner) {
   owner_force_t f;
@@ -89,7 +89,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
 }
 
 // Per run of slots of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
-__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                           WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, int regions,
                           __global const int* region_values, __global real* wrenches) {
   const int item = get_global_id(0);
@@ -134,6 +134,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     finish_particles(&a, &sums);
     for (int own = 0; own < TILE_OWN; ++own) {
       if (!touching[own]) continue;
+      stand_at(&walls, state, stride, first + own);
       LOOK_THROUGH(walls, a.near, own);
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, film, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);

@@ -22,7 +22,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 // Less than this share of the full kernel sum and an element counts as dry: its average would be one droplet's.
 #define DRY R(0.01)
 
-__kernel void wall_loads(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, int stride, real reach,
+__kernel void wall_loads(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                          WALL_ARGUMENTS, __global const real* images, __global real* loads) {
   const int s = get_global_id(0);
   if (s >= count) return;

@@ -1,0 +1,22 @@
+// Fields times particles pass what 32 bits hold at 165 million particles: kernels take what they multiply with fields as long.
+#include <regex>
+
+#include "sph_fixture.h"
+#include "wavetank/sph/kernel_sources.h"
+
+namespace wavetank {
+namespace {
+
+TEST(Strides, AreLongInEveryKernel) {
+  const std::regex stride("(\\w+)\\s+(?:\\w+_)?stride\\b\\s*[,;)=]");
+  int found = 0;
+  for (const auto& [name, text] : kernel_sources())
+    for (std::sregex_iterator match(text.begin(), text.end(), stride), end; match != end; ++match) {
+      EXPECT_EQ((*match)[1], "long") << name << ": " << match->str();
+      ++found;
+    }
+  EXPECT_GT(found, 50);
+}
+
+}  // namespace
+}  // namespace wavetank
