@@ -11,7 +11,8 @@ int main() {
   try {
     const compute::DeviceInfo device = compute::choose_device("auto");
     std::printf("%s\n", device.describe().c_str());
-    const bench::EveryKernel found = bench::run_every_kernel(device, [](const std::string& line) { std::printf("%s\n", line.c_str()); });
+    const bench::EveryKernel found =
+        bench::run_every_kernel(device, bench::KernelCases::all, [](const std::string& line) { std::printf("%s\n", line.c_str()); });
     std::printf("kernels run:");
     for (const std::string& kernel : found.run) std::printf(" %s", kernel.c_str());
     std::printf("\n");

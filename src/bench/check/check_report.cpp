@@ -12,7 +12,7 @@ namespace {
 std::string value_text(double value) {
   if (!std::isfinite(value)) return "not a number";
   char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  std::snprintf(text, sizeof text, "%.5g", value);
   return text;
 }
 

@@ -28,6 +28,7 @@ Case scene_for(const compute::DeviceInfo& device) {
   scene.instruments.pressure_probes = {{"P1", Vector3d(0.8245, 0.4745, 0.021), "box"}, {"P2", Vector3d(0.8245, 0.4745, 0.061), "box"}};
   scene.instruments.wave_gauges = {{"x1488mm", Vector3d(1.488, 0.5, 0)}, {"x2638mm", Vector3d(2.638, 0.5, 0)}};
   scene.instruments.rate = 1000;
+  scene.instruments.gauge_rate = 200;
   scene.instruments.energy_rate = 100;
   scene.instruments.wrench_rate = 1e-3;
   return scene;
@@ -53,10 +54,8 @@ std::size_t outside(const ParticleCloud& cloud, const Box& tank) {
   }));
 }
 
-}  // namespace
-
-std::vector<Check> check_dam_break(const compute::DeviceInfo& device) {
-  Simulation simulation(scene_for(device));
+std::vector<Check> key_figures(const Case& scene) {
+  Simulation simulation(scene);
   const std::size_t particles = simulation.state().particles;
   while (simulation.state().time < duration) simulation.advance();
   const Samples samples = simulation.take_samples();
@@ -76,19 +75,29 @@ std::vector<Check> check_dam_break(const compute::DeviceInfo& device) {
   const double spendable = spendable_energy(first, 2 * first.potential / (first.mass * 9.81), volume / floor);
 
   const ParticleCloud cloud = simulation.particles();
-  const double mass = first.mass, expected = static_cast<double>(particles);
-  return {{"particles after 1 s", static_cast<double>(cloud.id.size()), expected, expected, ""},
-          {"particles outside the tank", static_cast<double>(outside(cloud, {tank.origin, tank.origin + tank.size})), 0, 0, ""},
-          {"mass after 1 s over that at the start", last.mass / mass, 1 - 1e-6, 1 + 1e-6, ""},
-          {"front at x = 1.488 m", arrival(samples.levels, 0.02, gauge(0)), 0, 1, "s"},
-          {"front at the box", arrival(samples.pressures, 500, probe(0)), 0, 1, "s"},
-          {"greatest pressure at P1", peak, 0, 1e6, "Pa"},
-          {"impulse of P1, 0.35 to 1 s", impulses[0], 0, 1e6, "Pa s"},
-          {"impulse of P2, 0.35 to 1 s", impulses[1], 0, 1e6, "Pa s"},
-          {"level at x = 2.638 m after 1 s", samples.levels.back().levels[1], 0, 1, "m"},
-          {"greatest gain of energy", (most - sum_of(first)) / spendable, -1, 1e-3, "of what can be lost"},
-          {"energy lost in 1 s", (sum_of(first) - sum_of(last)) / spendable, 0, 1, "of what can be lost"},
-          {"kinetic energy after 1 s", last.kinetic / spendable, 0, 1, "of what can be lost"}};
+  const double expected = static_cast<double>(particles);
+  // What was found on pocl, and how far a device may be from it. Gravity changed by 1e-6 or Δt by 1e-5, much more than rounding, moves no
+  // front by a sample, the pressures' peak and impulses by 0.1 %, and the shares of energy by 0.0002.
+  const auto near = [](const std::string& what, double value, double found, double allowed, const char* unit) {
+    return Check{what, value, found - allowed, found + allowed, unit};
+  };
+  const char* const share = "of what can be lost";
+  return {near("particles after 1 s", static_cast<double>(cloud.id.size()), static_cast<double>(particles), 0, ""),
+          near("particles outside the tank", static_cast<double>(outside(cloud, {tank.origin, tank.origin + tank.size})), 0, 0, ""),
+          near("change of mass in 1 s", last.mass / first.mass - 1, 0, 1e-6, "of the mass"),
+          near("front at x = 1.488 m", arrival(samples.levels, 0.02, gauge(0)), 0.245, 0.01, "s"),
+          near("front at the box", arrival(samples.pressures, 500, probe(0)), 0.413, 0.004, "s"),
+          near("greatest pressure at P1", peak, 20640, 400, "Pa"),
+          near("impulse of P1, 0.35 to 1 s", impulses[0], 3242, 65, "Pa s"),
+          near("impulse of P2, 0.35 to 1 s", impulses[1], 2513, 50, "Pa s"),
+          near("level at x = 2.638 m after 1 s", samples.levels.back().levels[1], 0.2786, 0.003, "m"),
+          {"greatest gain of energy", (most - sum_of(first)) / spendable, 0, 1e-3, share},  // as test/simulation/energy_balance_test.cpp
+          near("energy lost in 1 s", (sum_of(first) - sum_of(last)) / spendable, 0.17, 0.005, share),
+          near("kinetic energy after 1 s", last.kinetic / spendable, 0.619, 0.005, share)};
 }
+
+}  // namespace
+
+std::vector<Check> check_dam_break(const compute::DeviceInfo& device) { return key_figures(scene_for(device)); }
 
 }  // namespace wavetank::bench

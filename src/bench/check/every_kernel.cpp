@@ -168,20 +168,33 @@ void run_walls(Runs& runs, int dimensions) {
   runs.run(scene);
 }
 
-/// Walls that move, of the kinds that are listed differently.
-void run_motion(Runs& runs, int dimensions) {
+Case moved(int dimensions, WallElements elements) {
   Case scene = column(dimensions);
-  scene.numerics.walls.elements = dimensions == 2 ? WallElements::numerical : WallElements::facet;
+  scene.numerics.walls.elements = elements;
   scene.tank.motion = Motion::commanded;
   scene.bodies[0].motion = Motion::free;
-  Carried mover(dimensions);
-  runs.run(scene, &mover);
+  return scene;
 }
 
-}  // namespace
+/// Walls that move, of the kinds that are listed differently.
+void run_motion(Runs& runs, int dimensions) {
+  Carried mover(dimensions);
+  runs.run(moved(dimensions, dimensions == 2 ? WallElements::numerical : WallElements::facet), &mover);
+}
 
-EveryKernel run_every_kernel(const compute::DeviceInfo& device, const std::function<void(const std::string&)>& tell) {
-  Runs runs(device, tell);
+/// Walls of elements that move, in 3-D, with the diffusion that needs a gradient, by every integrator; and the plain case in 2-D.
+void run_few(Runs& runs) {
+  Case scene = moved(3, WallElements::numerical);
+  scene.numerics.density_diffusion = DensityDiffusion::antuono;
+  for (const auto integrator : {Integrator::symplectic, Integrator::runge_kutta_4, Integrator::predictor_corrector}) {
+    scene.numerics.integrator = integrator;
+    Carried mover(3);
+    runs.run(scene, &mover);
+  }
+  runs.run(column(2));
+}
+
+void run_all(Runs& runs) {
   for (const int dimensions : {2, 3}) {
     for (const auto diffusion : {DensityDiffusion::fourtakas, DensityDiffusion::antuono}) runs.run(column(dimensions, diffusion));
     run_walls(runs, dimensions);
@@ -197,11 +210,22 @@ EveryKernel run_every_kernel(const compute::DeviceInfo& device, const std::funct
   open_water.bodies.clear();
   runs.run_wide(open_water);
   runs.run_wide(column(3));  // past the box, which is thin
+}
+
+}  // namespace
+
+EveryKernel run_every_kernel(const compute::DeviceInfo& device, KernelCases cases, const std::function<void(const std::string&)>& tell) {
+  Runs runs(device, tell);
+  if (cases == KernelCases::few) {
+    run_few(runs);
+  } else {
+    run_all(runs);
+  }
   return runs.result();
 }
 
 std::vector<Check> check_every_kernel(const compute::DeviceInfo& device) {
-  const EveryKernel found = run_every_kernel(device, [](const std::string&) {});
+  const EveryKernel found = run_every_kernel(device, KernelCases::few, [](const std::string&) {});
   const auto none = [](const std::string& what, std::size_t count) { return Check{what, static_cast<double>(count), 0, 0, ""}; };
   return {none("kernels that did not run, of " + std::to_string(found.run.size() + found.missing.size()), found.missing.size()),
           none("values that are not finite", found.not_finite), none("cases stopped, of " + std::to_string(found.cases), found.violations),

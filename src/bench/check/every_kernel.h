@@ -9,7 +9,7 @@
 
 namespace wavetank::bench {
 
-/// What small cases, of every kind of walls, diffusion, integrator and motion, have come to in two steps each.
+/// What small cases have come to in two steps each.
 struct EveryKernel {
   std::vector<std::string> run;      ///< names of the kernels that were launched
   std::vector<std::string> missing;  ///< and of those in the sources that were not
@@ -19,9 +19,15 @@ struct EveryKernel {
   std::size_t wrong_pairs = 0;  ///< cases that count no pairs, or more of them than candidates
 };
 
-/// `tell` is given a line about each case.
-EveryKernel run_every_kernel(const compute::DeviceInfo& device, const std::function<void(const std::string&)>& tell);
+enum class KernelCases {
+  few,  ///< of two sets of definitions that kernels are compiled with: a driver's compiler takes seconds for each
+  all   ///< every kind of walls, diffusion, integrator and motion
+};
 
+/// Either runs every kernel. `tell` is given a line about each case.
+EveryKernel run_every_kernel(const compute::DeviceInfo& device, KernelCases cases, const std::function<void(const std::string&)>& tell);
+
+/// Of the few cases.
 std::vector<Check> check_every_kernel(const compute::DeviceInfo& device);
 
 }  // namespace wavetank::bench

@@ -20,7 +20,7 @@ struct TileClass {
   bool is_gpu;
 };
 constexpr TileClass one{"one", 1, true};
-constexpr TileClass others[] = {{"2 x 2", 4, false}, {"2 x 4", 8, false}, {"4 x 4", 16, false}};  // src/sph/tiling.cpp
+constexpr TileClass others[] = {{"narrow tiles (2 x 2)", 4, false}, {"wide tiles (4 x 4)", 16, false}};  // as src/sph/tiling.cpp has them
 
 Case column_about_plate() {
   Case scene;
@@ -108,7 +108,7 @@ std::vector<Check> differences(const std::string& name, const Outcome& a, const 
     return (a.wrenches[k / 4][k % 4] - b.wrenches[k / 4][k % 4]).norm() / (pressure * width * depth);
   });
   const auto within = [&](const std::string& what, double value, double most, const char* unit) {
-    return Check{name + " against one: " + what, value, 0, most, unit};
+    return Check{name + ": " + what, value, 0, most, unit};
   };
   return {within("pairs", pairs, few_pairs, "pairs"),  // at R itself rounding decides, and the kernel vanishes
           within("places", places, rounding, "depth"), within("speeds", speeds, 10 * rounding, "sqrt(g depth)"),
