@@ -116,7 +116,6 @@ std::vector<BenchCase> default_cases() {
 std::vector<BenchCase> short_cases() {
   std::vector<BenchCase> cases;
   for (const char* size : {"100k", "1M"}) cases.push_back(case_named(name_of(3, size, smoothings[0], diffusions[0], wall_treatments()[0])));
-  cases.push_back(case_named("spheric2_45"));
   return cases;
 }
 

@@ -23,7 +23,9 @@ CheckPart failing_part(const std::string& name) {
 
 const Check good{"front at the box", 0.42, 0.4, 0.44, "s"};
 
-CheckReport report_of(const std::vector<CheckPart>& parts) { return run_parts(parts, {}, [](const CheckReport&) {}); }
+CheckReport report_of(const std::vector<CheckPart>& parts) {
+  return run_parts(parts, {}, [](const CheckReport&) {});
+}
 
 CheckOptions read(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "wavetank_check");
@@ -57,10 +59,11 @@ TEST(CheckReport, IsWellOnlyIfEveryCheckOfEveryPartIs) {
 TEST(CheckReport, GoesOnAfterAPartThatFails) {
   std::vector<std::size_t> told;
   bool well_after_the_first = true;
-  const CheckReport report = run_parts({part_of("one", {good}), failing_part("two"), part_of("three", {good})}, {}, [&](const CheckReport& so_far) {
-    told.push_back(so_far.parts.size());
-    if (so_far.parts.size() == 1) well_after_the_first = so_far.ok();
-  });
+  const CheckReport report =
+      run_parts({part_of("one", {good}), failing_part("two"), part_of("three", {good})}, {}, [&](const CheckReport& so_far) {
+        told.push_back(so_far.parts.size());
+        if (so_far.parts.size() == 1) well_after_the_first = so_far.ok();
+      });
   EXPECT_EQ(told, (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_FALSE(well_after_the_first) << "two parts are still to come";
   EXPECT_FALSE(report.ok());
@@ -77,7 +80,8 @@ TEST(CheckReport, TellsTheSameInItsTableAndInJson) {
     return at == std::string::npos ? std::string() : table.substr(begin, table.find('\n', at) - begin);
   };
   const std::string well = line_with("front at the box");
-  for (const char* cell : {"| dam_break ", "| 0.42 ", "| 0.4 to 0.44 ", "| s ", "| ok "}) EXPECT_NE(well.find(cell), std::string::npos) << well;
+  for (const char* cell : {"| dam_break ", "| 0.42 ", "| 0.4 to 0.44 ", "| s ", "| ok "})
+    EXPECT_NE(well.find(cell), std::string::npos) << well;
   for (const char* cell : {"| not a number ", "| FAILED "}) EXPECT_NE(line_with("greatest speed").find(cell), std::string::npos) << table;
   EXPECT_NE(line_with("ran to its end").find("FAILED"), std::string::npos);
   EXPECT_NE(table.find("tiles: the kernel \"sums\" could not be built\n"), std::string::npos);

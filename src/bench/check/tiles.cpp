@@ -22,14 +22,13 @@ struct TileClass {
 constexpr TileClass one{"one", 1, true};
 constexpr TileClass others[] = {{"narrow tiles (2 x 2)", 4, false}, {"wide tiles (4 x 4)", 16, false}};  // as src/sph/tiling.cpp has them
 
-Case column_about_plate() {
+Case column() {
   Case scene;
   scene.fluid.density = density;
   scene.fluid.spacing = 0.04;
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.4, width, depth)}};
   scene.tank.shape = BoxTank{Vector3d(length, width, 0.5), Vector3d::Zero(), false};
-  scene.bodies.push_back({"plate", Box{Vector3d(0.19, 0.12, 0.1), Vector3d(0.23, 0.28, 0.4)}, Motion::fixed});
-  scene.numerics.support = 3.3;
+  scene.bodies.push_back({"box", Box{Vector3d(0.48, 0.12, 0.0), Vector3d(0.62, 0.28, 0.14)}, Motion::fixed});
   return scene;
 }
 
@@ -58,7 +57,7 @@ Outcome outcome(const compute::DeviceInfo& device, const TileClass& tiles) {
   compute::DeviceInfo disguised = device;
   disguised.vector_width = tiles.vector_width;
   disguised.is_gpu = tiles.is_gpu;
-  const Case checked = column_about_plate();
+  const Case checked = column();
   const Layout layout = disordered(lay_out(checked));
   const Case scene = settled(checked, layout);
   const auto solver =
@@ -95,9 +94,9 @@ double greatest(std::size_t count, const Function& f) {
 }
 
 std::vector<Check> differences(const std::string& name, const Outcome& a, const Outcome& b) {
-  // Sums in another order: some roundings (6e-8) of the largest terms. ρ c² is 200 times the water's pressure, so that pressures and
-  // forces have 1000 times the rounding of places; test/sph/tiling_test.cpp allows the same.
-  constexpr double rounding = 2e-6, few_pairs = 4;
+  // Sums in another order: some roundings (6e-8) of the largest terms, 1e-7 for places and speeds and 3e-7 for pressures and forces on
+  // pocl. A device's compiler may round on the way in other places for each class; a neighbour left out is 1e-3 and more.
+  constexpr double few_pairs = 4, rounding_of_places = 2e-6, rounding_of_speeds = 1e-5, rounding_of_pressures = 1e-4;
   const double pressure = density * gravity * depth, speed = std::sqrt(gravity * depth);
   const double pairs = std::abs(static_cast<double>(a.pairs.pairs) - static_cast<double>(b.pairs.pairs));
   const double places = greatest(a.positions.size(), [&](std::size_t i) { return (a.positions[i] - b.positions[i]).norm() / depth; });
@@ -111,8 +110,9 @@ std::vector<Check> differences(const std::string& name, const Outcome& a, const 
     return Check{name + ": " + what, value, 0, most, unit};
   };
   return {within("pairs", pairs, few_pairs, "pairs"),  // at R itself rounding decides, and the kernel vanishes
-          within("places", places, rounding, "depth"), within("speeds", speeds, 10 * rounding, "sqrt(g depth)"),
-          within("pressures", pressures, 1000 * rounding, "rho g depth"), within("forces", forces, 1000 * rounding, "rho g depth area")};
+          within("places", places, rounding_of_places, "depth"), within("speeds", speeds, rounding_of_speeds, "sqrt(g depth)"),
+          within("pressures", pressures, rounding_of_pressures, "rho g depth"),
+          within("forces", forces, rounding_of_pressures, "rho g depth area")};
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 
 namespace wavetank::bench {
 
-/// Disordered water about a plate thinner than the support, with spray, for a few steps: whatever is taken at a time, the same within
-/// rounding.
+/// Disordered water beside a box, with spray, for a few steps: whatever is taken at a time, the same within rounding.
 std::vector<Check> check_tiles(const compute::DeviceInfo& device);
 
 }  // namespace wavetank::bench
