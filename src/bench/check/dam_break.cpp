@@ -75,7 +75,6 @@ std::vector<Check> key_figures(const Case& scene) {
   const double spendable = spendable_energy(first, 2 * first.potential / (first.mass * 9.81), volume / floor);
 
   const ParticleCloud cloud = simulation.particles();
-  const double expected = static_cast<double>(particles);
   // What was found on pocl, and how far a device may be from it. Gravity changed by 1e-6 or Δt by 1e-5, much more than rounding, moves no
   // front by a sample, the pressures' peak and impulses by 0.1 %, and the shares of energy by 0.0002.
   const auto near = [](const std::string& what, double value, double found, double allowed, const char* unit) {

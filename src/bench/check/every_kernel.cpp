@@ -21,7 +21,10 @@ Case column(int dimensions, DensityDiffusion diffusion = DensityDiffusion::fourt
   scene.fluid.spacing = dimensions == 3 ? 0.05 : 0.025;
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.25, across, 0.3)}};
   scene.tank.shape = BoxTank{Vector3d(0.5, across, 0.4), Vector3d::Zero(), false};
-  scene.bodies.push_back({"box", Box{Vector3d(0.3, 0.05, 0.0), Vector3d(0.4, 0.15, 0.1)}, Motion::fixed});
+  BodyCase box;
+  box.name = "box";
+  box.shape = Box{Vector3d(0.3, 0.05, 0.0), Vector3d(0.4, 0.15, 0.1)};
+  scene.bodies = {box};
   scene.numerics.density_diffusion = diffusion;
   return scene;
 }

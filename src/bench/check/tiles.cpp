@@ -28,7 +28,10 @@ Case column() {
   scene.fluid.spacing = 0.04;
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.4, width, depth)}};
   scene.tank.shape = BoxTank{Vector3d(length, width, 0.5), Vector3d::Zero(), false};
-  scene.bodies.push_back({"box", Box{Vector3d(0.48, 0.12, 0.0), Vector3d(0.62, 0.28, 0.14)}, Motion::fixed});
+  BodyCase box;
+  box.name = "box";
+  box.shape = Box{Vector3d(0.48, 0.12, 0.0), Vector3d(0.62, 0.28, 0.14)};
+  scene.bodies = {box};
   return scene;
 }
 
