@@ -14,11 +14,9 @@ fail() {
 [ $# -eq 2 ] && [ -x "$1/run" ] && [ ! -e "$2" ] || fail "takes a folder made by scripts/bundle, and one to make for the results."
 bundle=$1
 results=$2
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  unshare -r true 2> /dev/null || { echo "bundle_in_chroot: skipped, since chroot needs root, or namespaces of users."; exit 0; }
-  as_root=(unshare -r)
-fi
+apart=(unshare --mount)  # what is mounted goes with the last process
+[ "$(id -u)" -eq 0 ] || apart+=(--map-root-user)
+"${apart[@]}" true 2> /dev/null || { echo "bundle_in_chroot: skipped, since chroot and mounts need root, or namespaces of users."; exit 0; }
 driver=/usr/lib/x86_64-linux-gnu/libpocl.so.2
 [ -e "$driver" ] || fail "pocl's library '$driver' is missing: apt-get install pocl-opencl-icd"
 
@@ -27,16 +25,16 @@ trap 'rm -rf "$world"' EXIT
 mkdir "$world/bundle"
 cp -a "$bundle/." "$world/bundle"
 loader=(/bundle/lib/c/ld.so --library-path /bundle/lib:/bundle/lib/c)
-inside() { env -i "$@"; }
+inside() { env -i "${apart[@]}" /usr/sbin/chroot "$world" "$@"; }
 
 echo "without anything else"
-inside "${as_root[@]}" /usr/sbin/chroot "$world" "${loader[@]}" /bundle/bin/wavetank_bench --list | grep -q spheric2_45 || fail "the benchmark does not start."
+inside "${loader[@]}" /bundle/bin/wavetank_bench --list | grep -q spheric2_45 || fail "the benchmark does not start."
 code=0
-inside "${as_root[@]}" /usr/sbin/chroot "$world" "${loader[@]}" /bundle/bin/wavetank_check 2> "$world/error" || code=$?
+inside "${loader[@]}" /bundle/bin/wavetank_check 2> "$world/error" || code=$?
 [ "$code" -eq 2 ] && grep -q 'no OpenCL device was found' "$world/error" || fail "without a driver the self-check ends with $code and says: $(cat "$world/error")"
 
-# The driver: pocl, the linker that it starts, and their libraries, but for those of C++, which are the bundle's.
-mkdir -p "$world/usr/lib64" "$world/usr/bin" "$world/usr/share" "$world/tmp" "$world/results"
+# The driver: pocl, the linker that it starts, and their libraries, but for those of C++, which are the bundle's. It asks the kernel about the processor.
+mkdir -p "$world/usr/lib" "$world/usr/lib64" "$world/usr/bin" "$world/usr/share" "$world/tmp" "$world/proc" "$world/sys" "$world/results"
 ln -s usr/lib "$world/lib"
 ln -s usr/lib64 "$world/lib64"
 put() {
@@ -58,7 +56,8 @@ put /bin/sh
 echo "with pocl in the place of a driver"
 begin=$(date +%s)
 code=0
-inside OCL_ICD_VENDORS="$driver" "${as_root[@]}" /usr/sbin/chroot "$world" "${loader[@]}" /bin/sh /bundle/run /results || code=$?
+env -i PATH=/usr/bin OCL_ICD_VENDORS="$driver" "${apart[@]}" /bin/sh -euc 'world=$1; shift; for folder in proc sys; do mount --rbind "/$folder" "$world/$folder"; done
+  exec /usr/sbin/chroot "$world" "$@"' sh "$world" "${loader[@]}" /bin/sh /bundle/run /results || code=$?
 seconds=$(($(date +%s) - begin))
 cp -r "$world/results" "$results"
 rm -rf "$results/cache"

@@ -42,7 +42,7 @@ std::vector<Check> check_still_tank(const compute::DeviceInfo& device) {
     sum += std::pow(cloud.pressure[i] / bottom_pressure - (1 - cloud.position[i].z() / depth), 2);
     above = std::max(above, static_cast<double>(cloud.position[i].z()) - depth);
   }
-  // On pocl 0.0064 and 0.034, from the few particles that shift beside the walls; water that is let go from a lattice has 0.01 and more.
+  // On pocl the error is 0.0064 and the speed 0.034: three times as much is allowed.
   const double expected = static_cast<double>(particles);
   return {{"particles after 0.3 s", static_cast<double>(cloud.id.size()), expected, expected, ""},
           {"L2 error of the pressure", std::sqrt(sum / static_cast<double>(cloud.id.size())), 0, 0.02, "rho g depth"},
