@@ -49,6 +49,8 @@ for library in $(ldd "$driver" /usr/lib/x86_64-linux-gnu/pocl/*.so /usr/bin/ld |
 done
 put "$driver"
 put /usr/bin/ld
+for file in libc.so libc_nonshared.a libm.so libmvec.so.1 libgcc_s.so.1; do put "/usr/lib/x86_64-linux-gnu/$file"; done  # what it links kernels with
+for file in $(ls -d /usr/lib/gcc/x86_64-linux-gnu/*/{crtbegin,crtbeginS,crtendS}.o /usr/lib/gcc/x86_64-linux-gnu/*/libgcc{.a,_s.so}); do put "$file"; done
 cp -r /usr/lib/x86_64-linux-gnu/pocl "$world/usr/lib/x86_64-linux-gnu"
 cp -r /usr/share/pocl "$world/usr/share"
 put /bin/sh
