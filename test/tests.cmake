@@ -1,5 +1,10 @@
 # The test/<room>/*_test.cpp of a room are one gtest program <room>_test, linked with the room; each file of them is one of ctest's tests,
 # <room>_<name>_test, which runs the suites that the file has.
+if(NOT WAVETANK_ROS)
+  enable_testing()
+  find_package(GTest REQUIRED)
+  set(CATKIN_TEST_RESULTS_DIR ${CMAKE_BINARY_DIR}/test_results)
+endif()
 get_property(rooms GLOBAL PROPERTY WAVETANK_ROOMS)
 foreach(library ${rooms})
   string(REGEX REPLACE "^wavetank_" "" room ${library})
@@ -8,8 +13,13 @@ foreach(library ${rooms})
   if(NOT sources)
     continue()
   endif()
-  catkin_add_executable_with_gtest(${room}_test ${sources} EXCLUDE_FROM_ALL)
-  target_link_libraries(${room}_test ${library} ${GTEST_MAIN_LIBRARIES})
+  if(WAVETANK_ROS)
+    catkin_add_executable_with_gtest(${room}_test ${sources} EXCLUDE_FROM_ALL)
+    target_link_libraries(${room}_test ${library} ${GTEST_MAIN_LIBRARIES})
+  else()
+    add_executable(${room}_test ${sources})
+    target_link_libraries(${room}_test ${library} ${GTEST_BOTH_LIBRARIES})
+  endif()
   target_compile_definitions(${room}_test PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
   target_compile_options(${room}_test PRIVATE -O1)  # what is slow in them is the libraries'
   # what most of a test's compilation is spent on
@@ -42,7 +52,7 @@ endforeach()
 
 # Every kernel on a few hundred particles, each access watched by oclgrind.
 add_executable(every_kernel EXCLUDE_FROM_ALL test/oclgrind/every_kernel.cpp)
-target_link_libraries(every_kernel wavetank_sph)
+target_link_libraries(every_kernel wavetank_bench_library)
 if(WAVETANK_STANDALONE)
   set_target_properties(every_kernel PROPERTIES EXCLUDE_FROM_ALL FALSE)
 endif()
@@ -68,6 +78,8 @@ endforeach()
 
 add_test(NAME bench_wavetank_bench_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_BENCH=$<TARGET_FILE:wavetank_bench>
   ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/bench/wavetank_bench_test.py -v)
+add_test(NAME bench_wavetank_check_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_CHECK=$<TARGET_FILE:wavetank_check>
+  ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/bench/wavetank_check_test.py -v)
 
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)

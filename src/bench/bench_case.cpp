@@ -113,6 +113,12 @@ std::vector<BenchCase> default_cases() {
   return cases;
 }
 
+std::vector<BenchCase> short_cases() {
+  std::vector<BenchCase> cases;
+  for (const char* size : {"100k", "1M"}) cases.push_back(case_named(name_of(3, size, smoothings[0], diffusions[0], wall_treatments()[0])));
+  return cases;
+}
+
 std::vector<BenchCase> chosen_cases(const std::vector<std::string>& filters) {
   if (filters.empty()) return default_cases();
   std::vector<BenchCase> cases;

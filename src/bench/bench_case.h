@@ -29,6 +29,8 @@ struct BenchCase {
 const std::vector<BenchCase>& all_cases();
 /// What is measured unless something else is asked for: every size, and at 100k in 3-D each other choice by itself.
 std::vector<BenchCase> default_cases();
+/// Two of them, of the same kernels: 100 thousand and a million particles in 3-D.
+std::vector<BenchCase> short_cases();
 /// Those whose names contain every one of the filters; the default ones without any. Throws Error if there are none.
 std::vector<BenchCase> chosen_cases(const std::vector<std::string>& filters);
 /// Throws Error for a name that no case has.

@@ -31,6 +31,8 @@ BenchOptions read_bench_options(int argc, char** argv) {
       ->type_name("N");
   app.add_option("--json", options.json, "write all of it to this file, each repeat's value too (an older one is replaced)")
       ->type_name("FILE");
+  app.add_flag("--short", options.short_set,
+               "100k and 1M in 3-D in place of the usual set, for a machine that is at hand for minutes only");
   app.add_flag("--no-cold-build", no_cold_build, "leave out how long the kernels take to build with empty caches");
   app.add_flag("--list", list, "print the names of all cases, or of those that --filter leaves");
   app.add_flag("--version", show_version, "print the version");
@@ -52,6 +54,7 @@ BenchOptions read_bench_options(int argc, char** argv) {
   }
   if (options.repeats < 1) throw Error("--repeat " + std::to_string(options.repeats) + " is not a number of measurements, at least 1");
   if (app.count("--json") > 0 && options.json.empty()) throw Error("--json needs the name of a file");
+  if (options.short_set && !options.filters.empty()) throw Error("--short and --filter are two choices of cases; give one of them");
   options.cold_build = !no_cold_build;
   if (list) options.action = BenchOptions::Action::list;
   if (!options.start_up_of.empty()) options.action = BenchOptions::Action::start_up;

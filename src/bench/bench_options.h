@@ -17,6 +17,7 @@ struct BenchOptions {
   std::string json;  ///< file; empty = none
   int repeats = 5;
   bool cold_build = true;
+  bool short_set = false;
   std::string start_up_of;
 };
 

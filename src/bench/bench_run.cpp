@@ -15,16 +15,15 @@ constexpr double usable_memory = 0.9;  // of the device's: it is not the only on
 
 std::string gibibytes(double bytes) { return figure(bytes / (1024.0 * 1024.0 * 1024.0)) + " GiB"; }
 
-std::string indices_of(const compute::DeviceInfo& device) { return std::to_string(device.platform) + ":" + std::to_string(device.device); }
-
 double bytes_per_particle(const Simulation& simulation) {
   return static_cast<double>(simulation.device_memory()) / static_cast<double>(simulation.state().particles);
 }
 
 }  // namespace
 
-BenchRun::BenchRun(const BenchOptions& options, const compute::DeviceInfo& device, std::string program, std::function<bool()> stopped)
-    : options_(options), device_(device), program_(std::move(program)), stopped_(std::move(stopped)) {}
+BenchRun::BenchRun(const BenchOptions& options, const compute::DeviceInfo& device, std::vector<std::string> command,
+                   std::function<bool()> stopped)
+    : options_(options), device_(device), command_(std::move(command)), stopped_(std::move(stopped)) {}
 
 Report BenchRun::run(const std::vector<BenchCase>& cases) {
   Report report;
@@ -49,7 +48,7 @@ Report BenchRun::run(const std::vector<BenchCase>& cases) {
 std::optional<Measurement> BenchRun::measure(const BenchCase& bench_case) {
   const Kernels& kernels = kernels_of(bench_case.small_twin);
   check_memory(bench_case, kernels.bytes_per_particle);
-  const Started started = start(make_case(bench_case, indices_of(device_)));
+  const Started started = start(make_case(bench_case, device_.indices()));
   const std::vector<Block> blocks = measure_blocks(*started.simulation, options_.repeats, stopped_);
   if (blocks.empty()) return {};
   Measurement measured = summarised(bench_case, started.simulation->state().particles, blocks);
@@ -66,9 +65,9 @@ const BenchRun::Kernels& BenchRun::kernels_of(const std::string& twin) {
   kernels.cold_build = std::numeric_limits<double>::quiet_NaN();
   if (options_.cold_build) {
     std::fprintf(stderr, "  building the kernels with empty caches\n");
-    kernels.cold_build = cold_build_seconds(program_, twin, indices_of(device_));
+    kernels.cold_build = cold_build_seconds(command_, twin, device_.indices());
   }
-  kernels.bytes_per_particle = bytes_per_particle(*start(make_case(case_named(twin), indices_of(device_))).simulation);
+  kernels.bytes_per_particle = bytes_per_particle(*start(make_case(case_named(twin), device_.indices())).simulation);
   return kernels_.emplace(twin, kernels).first->second;
 }
 

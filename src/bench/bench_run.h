@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench_case.h"
 #include "bench_options.h"
@@ -15,8 +16,8 @@ namespace wavetank::bench {
 /// Goes through cases one after the other. Progress is told on standard error.
 class BenchRun {
  public:
-  /// `program`: itself, that cold builds are started from. `stopped`: asked after each step; once it is true the run ends.
-  BenchRun(const BenchOptions& options, const compute::DeviceInfo& device, std::string program, std::function<bool()> stopped);
+  /// `command`: starts this program, for cold builds. `stopped`: asked after each step; once it is true the run ends.
+  BenchRun(const BenchOptions& options, const compute::DeviceInfo& device, std::vector<std::string> command, std::function<bool()> stopped);
 
   Report run(const std::vector<BenchCase>& cases);
 
@@ -35,7 +36,7 @@ class BenchRun {
 
   BenchOptions options_;
   compute::DeviceInfo device_;
-  std::string program_;
+  std::vector<std::string> command_;
   std::function<bool()> stopped_;
   std::map<std::string, Kernels> kernels_;  ///< by the name of the small twin
 };

@@ -69,8 +69,8 @@ std::string read_all(int descriptor) {
   }
 }
 
-/// What the program prints. Its errors go where ours go.
-std::string output_of(const std::string& program, std::vector<std::string> arguments, std::vector<std::string> environment) {
+/// What the command prints. Its errors go where ours go.
+std::string output_of(std::vector<std::string> command, std::vector<std::string> environment) {
   int ends[2];
   if (pipe(ends) != 0) throw Error("no pipe could be made for the cold build");
   posix_spawn_file_actions_t actions;
@@ -78,15 +78,14 @@ std::string output_of(const std::string& program, std::vector<std::string> argum
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
   posix_spawn_file_actions_addclose(&actions, ends[1]);
-  arguments.insert(arguments.begin(), program);
   pid_t child = 0;
   const int failure =
-      posix_spawn(&child, program.c_str(), &actions, nullptr, pointers_to(arguments).data(), pointers_to(environment).data());
+      posix_spawn(&child, command.front().c_str(), &actions, nullptr, pointers_to(command).data(), pointers_to(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   const std::string text = failure == 0 ? read_all(ends[0]) : "";
   close(ends[0]);
-  if (failure != 0) throw Error("the program " + program + " could not be started for the cold build");
+  if (failure != 0) throw Error("the program " + command.front() + " could not be started for the cold build");
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -96,12 +95,13 @@ std::string output_of(const std::string& program, std::vector<std::string> argum
 
 }  // namespace
 
-double cold_build_seconds(const std::string& program, const std::string& case_name, const std::string& device) {
+double cold_build_seconds(const std::vector<std::string>& command, const std::string& case_name, const std::string& device) {
   const CacheDirectory cache;
-  const std::vector<std::string> arguments = {start_up_option, case_name, "--device", device};
+  std::vector<std::string> whole = command;
+  whole.insert(whole.end(), {start_up_option, case_name, "--device", device});
   const std::vector<std::string> environment = environment_with(cache.path());
-  const StartUp cold = start_up_of(output_of(program, arguments, environment));
-  const StartUp warm = start_up_of(output_of(program, arguments, environment));
+  const StartUp cold = start_up_of(output_of(whole, environment));
+  const StartUp warm = start_up_of(output_of(whole, environment));
   return cold.without_layout() - warm.without_layout();
 }
 

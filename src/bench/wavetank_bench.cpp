@@ -2,10 +2,10 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 
 #include "bench_options.h"
 #include "bench_run.h"
+#include "own_command.h"
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
@@ -25,7 +25,9 @@ void log_warnings(LogLevel level, const std::string& line) {
 }
 
 void list(const BenchOptions& options) {
-  const std::vector<BenchCase> cases = options.filters.empty() ? all_cases() : chosen_cases(options.filters);
+  const std::vector<BenchCase> cases = options.short_set         ? short_cases()
+                                       : options.filters.empty() ? all_cases()
+                                                                 : chosen_cases(options.filters);
   for (const BenchCase& bench_case : cases) std::printf("%s\n", bench_case.name.c_str());
 }
 
@@ -33,13 +35,13 @@ void print_start_up(const BenchOptions& options) {
   std::printf("%s\n", text_of(start(make_case(case_named(options.start_up_of), options.device)).time).c_str());
 }
 
-int run(const BenchOptions& options) {
-  const std::vector<BenchCase> cases = chosen_cases(options.filters);
+int run(const BenchOptions& options, int argc) {
+  const std::vector<BenchCase> cases = options.short_set ? short_cases() : chosen_cases(options.filters);
   if (!options.json.empty()) check_writable(options.json, "the report");
   const EndingSignals signals([](int number) { caught_signal = number; });
   const compute::DeviceInfo device = compute::choose_device(options.device);
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const Report report = BenchRun(options, device, program, [] { return caught_signal != 0; }).run(cases);
+  const std::vector<std::string> command = options.cold_build ? own_command(argc) : std::vector<std::string>();
+  const Report report = BenchRun(options, device, command, [] { return caught_signal != 0; }).run(cases);
   std::printf("%s", table_of(report).c_str());
   if (!options.json.empty()) write_whole(options.json, json_of(report), "the report");
   return report.interrupted ? exit_signal + caught_signal : 0;
@@ -59,7 +61,7 @@ int main(int argc, char** argv) {
         print_start_up(options);
         return 0;
       case BenchOptions::Action::run:
-        return run(options);
+        return run(options, argc);
       case BenchOptions::Action::nothing:
         return 0;
     }

@@ -111,9 +111,11 @@ std::vector<DeviceInfo> of_kind(const std::vector<DeviceInfo>& devices, bool gpu
 
 }  // namespace
 
+std::string DeviceInfo::indices() const { return std::to_string(platform) + ":" + std::to_string(device); }
+
 std::string DeviceInfo::describe() const {
-  return std::to_string(platform) + ":" + std::to_string(device) + " " + name + " (" + platform_name + ", driver " + driver + ", " +
-         std::to_string(compute_units) + (compute_units == 1 ? " unit, " : " units, ") + size_text(global_memory) + ")";
+  return indices() + " " + name + " (" + platform_name + ", driver " + driver + ", " + std::to_string(compute_units) +
+         (compute_units == 1 ? " unit, " : " units, ") + size_text(global_memory) + ")";
 }
 
 std::vector<DeviceInfo> list_devices() {

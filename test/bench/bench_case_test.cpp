@@ -31,6 +31,8 @@ TEST(BenchCases, HaveNamesOfTheirOwn) {
 
 TEST(BenchCases, AreChosenByPartsOfTheirNames) {
   EXPECT_EQ(chosen_cases({}).size(), default_cases().size());
+  EXPECT_EQ(names_of(short_cases()),
+            (std::vector<std::string>{"dam_break_3d/100k/h1.5/fourtakas/facet", "dam_break_3d/1M/h1.5/fourtakas/facet"}));
   EXPECT_EQ(names_of(chosen_cases({"spheric2"})), std::vector<std::string>{"spheric2_45"});
   EXPECT_EQ(chosen_cases({"3d/", "/1M/", "h2", "antuono"}).size(), 7U);
   EXPECT_EQ(names_of(chosen_cases({"/ghost", "2d/10k/h1.5/none"})), std::vector<std::string>{"dam_break_2d/10k/h1.5/none/ghost"});

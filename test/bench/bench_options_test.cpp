@@ -27,6 +27,8 @@ TEST(BenchOptions, ReadsEverything) {
   EXPECT_EQ(options.json, "out.json");
   EXPECT_FALSE(options.cold_build);
   EXPECT_TRUE(read({}).cold_build);
+  EXPECT_TRUE(read({"--short"}).short_set);
+  EXPECT_FALSE(options.short_set);
   EXPECT_EQ(read({}).repeats, 5);
 }
 
@@ -37,8 +39,13 @@ TEST(BenchOptions, ChooseTheAction) {
 
 TEST(BenchOptions, RefuseWhatMakesNoSense) {
   EXPECT_NE(error_of([] { read({"--repeat", "0"}); }).find("--repeat 0"), std::string::npos);
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"--repeat", "-3"}, {"--repeat", "some"}, {"--json"}, {"--json", ""}, {"--nonsense"}, {"case.yaml"}})
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--repeat", "-3"},
+                                                                                         {"--repeat", "some"},
+                                                                                         {"--json"},
+                                                                                         {"--json", ""},
+                                                                                         {"--nonsense"},
+                                                                                         {"case.yaml"},
+                                                                                         {"--short", "--filter", "3d"}})
     EXPECT_THROW(read(arguments), Error) << arguments[0];
 }
 

@@ -11,7 +11,7 @@ Report run_on(const compute::DeviceInfo& device, const std::vector<std::string>&
   options.cold_build = false;
   std::vector<BenchCase> cases;
   for (const std::string& name : names) cases.push_back(case_named(name));
-  return BenchRun(options, device, "", [stopped] { return stopped; }).run(cases);
+  return BenchRun(options, device, {}, [stopped] { return stopped; }).run(cases);
 }
 
 TEST(BenchRun, SkipsWhatTheMemoryCannotHold) {

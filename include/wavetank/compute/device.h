@@ -24,6 +24,7 @@ struct DeviceInfo {
   std::size_t global_memory = 0;   ///< bytes
   std::size_t max_allocation = 0;  ///< bytes
   std::size_t max_work_group = 0;
+  std::string indices() const;   ///< "0:0", as choose_device takes them
   std::string describe() const;  ///< one line: "0:0 NAME (PLATFORM, driver D, 2 units, 23.4 GiB)"
 };
 

@@ -1,0 +1,238 @@
+#include "every_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <variant>
+
+#include "wavetank/sph/kernel_sources.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank::bench {
+namespace {
+
+const Vector3d box_centre(0.35, 0.1, 0.05);
+
+Case column(int dimensions, DensityDiffusion diffusion = DensityDiffusion::fourtakas) {
+  const double across = dimensions == 3 ? 0.2 : 0.0;
+  Case scene;
+  scene.dimensions = dimensions;
+  scene.fluid.spacing = dimensions == 3 ? 0.05 : 0.025;
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.25, across, 0.3)}};
+  scene.tank.shape = BoxTank{Vector3d(0.5, across, 0.4), Vector3d::Zero(), false};
+  BodyCase box;
+  box.name = "box";
+  box.shape = Box{Vector3d(0.3, 0.05, 0.0), Vector3d(0.4, 0.15, 0.1)};
+  scene.bodies = {box};
+  scene.numerics.density_diffusion = diffusion;
+  return scene;
+}
+
+/// A box that is carried from the floor into the water and turned, in a tank that turns too.
+class Carried final : public WallMover {
+ public:
+  explicit Carried(int dimensions) : across_(dimensions == 3 ? 1 : 0) {}
+
+  std::vector<int> coupled() const override { return {0, 1}; }
+  WallMotions at(double, double) override { return motions(); }
+  WallMotions to_end(double, const std::vector<WallWrench>&) override {
+    ++step_;
+    return motions();
+  }
+
+ private:
+  WallMotions motions() const {
+    WallMotions motions;
+    motions.owners.resize(2);
+    motions.owners[1].displacement = step_ * Vector3d(-0.02, 0.01 * across_, 0.02);  // lists are made anew after a quarter of the spacing
+    motions.owners[1].orientation = Eigen::AngleAxisd(0.1 * step_, Vector3d(across_, 1, across_).normalized());
+    motions.owners[1].velocity = Vector3d(-0.1, 0.05 * across_, 0.1);
+    motions.frame.emplace();
+    motions.frame->gravity = Vector3d(0.5, 0, -9.81);
+    motions.frame->angular_velocity = Vector3d(0, 0.3, 0);
+    motions.frame->angular_acceleration = Vector3d(0, 1, 0);
+    return motions;
+  }
+
+  int across_;
+  int step_ = 0;
+};
+
+std::size_t not_finite_in(const FluidState& fluid) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < fluid.id.size(); ++i)
+    if (!fluid.position[i].allFinite() || !fluid.velocity[i].allFinite() || !std::isfinite(fluid.pressure[i]) ||
+        !std::isfinite(fluid.compression[i]) || !std::isfinite(fluid.shepard[i]))
+      ++count;
+  return count;
+}
+
+std::size_t not_finite_of(const std::vector<double>& values) {
+  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); }));
+}
+
+class Runs {
+ public:
+  Runs(const compute::DeviceInfo& info, const std::function<void(const std::string&)>& tell) : device_(info, true), tell_(tell) {}
+
+  void run(const Case& scene, WallMover* mover = nullptr) { run(device_, scene, mover); }
+  void run_wide(const Case& scene) {
+    compute::DeviceInfo wide = device_.info();
+    wide.vector_width = 16;
+    wide.is_gpu = false;
+    run(compute::Device(wide), scene, nullptr);
+  }
+  EveryKernel result();
+
+ private:
+  void run(const compute::Device& device, const Case& checked, WallMover* mover);
+  void read(Solver& solver);
+
+  compute::Device device_;
+  std::function<void(const std::string&)> tell_;
+  EveryKernel found_;
+};
+
+void Runs::run(const compute::Device& device, const Case& checked, WallMover* mover) {
+  const Layout layout = lay_out(checked);
+  const Case scene = settled(checked, layout);
+  std::vector<Vector3d> centres(1, Vector3d::Zero());
+  centres.resize(1 + scene.bodies.size(), box_centre);
+  const auto solver = make_solver(device, scene, layout, discretise(scene, layout), centres);
+  solver->set_film({{Vector3d(0.3, 0.1, 0.02), 1e-4, 1000.0}, {Vector3d(0.24, 0.1, 0.02), 1e-4, 1000.0}});
+  solver->pack(2, {});
+  solver->start();
+  bool valid = true;
+  for (int step = 0; step < 2; ++step) valid = solver->advance(mover).valid() && valid;
+  ++found_.cases;
+  if (!valid) ++found_.violations;
+  read(*solver);
+  char line[200];
+  std::snprintf(line, sizeof line, "%d-D, diffusion %d: %zu particles, %zu wall elements", scene.dimensions,
+                static_cast<int>(scene.numerics.density_diffusion), solver->particle_count(), layout.walls.size());
+  tell_(line);
+}
+
+/// All that a solver can be asked.
+void Runs::read(Solver& solver) {
+  const auto points = solver.make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.5, 0.2, 0.4), Vector3d(0.45, 0.1, 0.35)});
+  for (const PointValue& value : solver.evaluate(*points))
+    found_.not_finite += not_finite_of({value.pressure, value.filling, value.shepard});
+  for (const WallWrench& wrench : solver.wrenches())
+    for (const Vector3d& part : wrench) found_.not_finite += not_finite_of({part.x(), part.y(), part.z()});
+  const FluidEnergies energies = solver.energies();
+  found_.not_finite += not_finite_of({energies.kinetic, energies.potential, energies.compression, energies.mass});
+  const LostVolume volume = solver.lost_volume();
+  found_.not_finite += not_finite_of({volume.lost, volume.whole});
+  const PairCount pairs = solver.count_pairs();
+  if (pairs.pairs == 0 || pairs.candidates < pairs.pairs) ++found_.wrong_pairs;
+  solver.restore(solver.save());
+  found_.not_finite += not_finite_in(solver.download());
+}
+
+/// Of the definitions "__kernel void NAME(" in the sources.
+std::set<std::string> names_of_kernels() {
+  const std::string head = "__kernel void ";
+  std::set<std::string> names;
+  for (const auto& [file, text] : kernel_sources())
+    for (std::size_t at = text.find(head); at != std::string::npos; at = text.find(head, at + 1)) {
+      const std::size_t begin = at + head.size();
+      names.insert(text.substr(begin, text.find('(', begin) - begin));
+    }
+  return names;
+}
+
+EveryKernel Runs::result() {
+  std::set<std::string> run;
+  for (const auto& timing : device_.timings()) run.insert(timing.kernel);
+  found_.run.assign(run.begin(), run.end());
+  for (const std::string& name : names_of_kernels())
+    if (run.count(name) == 0) found_.missing.push_back(name);
+  return found_;
+}
+
+/// Every kind of wall, with plates thinner than the support (the box in 3-D), belts, periodic ends and ghosts.
+void run_walls(Runs& runs, int dimensions) {
+  Case scene = column(dimensions);
+  scene.tank.periodic = {false, dimensions == 3, false};
+  scene.bodies[0].surface_velocity = Vector3d(0.1, 0, 0);
+  if (dimensions == 3) {
+    std::get<BoxTank>(scene.tank.shape).size.y() = 0.4;  // twice the support
+    scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.15, 0.4, 0.2)}};
+  }
+  for (const auto elements : {WallElements::numerical, WallElements::semi_analytical, WallElements::facet}) {
+    scene.numerics.walls.elements = elements;
+    runs.run(scene);
+  }
+  scene.bodies.clear();
+  scene.numerics.walls.method = WallMethod::ghost;
+  scene.numerics.walls.repulsion = 0.1;
+  runs.run(scene);
+}
+
+Case moved(int dimensions, WallElements elements) {
+  Case scene = column(dimensions);
+  scene.numerics.walls.elements = elements;
+  scene.tank.motion = Motion::commanded;
+  scene.bodies[0].motion = Motion::free;
+  return scene;
+}
+
+/// Walls that move, of the kinds that are listed differently.
+void run_motion(Runs& runs, int dimensions) {
+  Carried mover(dimensions);
+  runs.run(moved(dimensions, dimensions == 2 ? WallElements::numerical : WallElements::facet), &mover);
+}
+
+/// Walls of elements that move, in 3-D, with the diffusion that needs a gradient, by every integrator; and the plain case in 2-D.
+void run_few(Runs& runs) {
+  Case scene = moved(3, WallElements::numerical);
+  scene.numerics.density_diffusion = DensityDiffusion::antuono;
+  for (const auto integrator : {Integrator::symplectic, Integrator::runge_kutta_4, Integrator::predictor_corrector}) {
+    scene.numerics.integrator = integrator;
+    Carried mover(3);
+    runs.run(scene, &mover);
+  }
+  runs.run(column(2));
+}
+
+void run_all(Runs& runs) {
+  for (const int dimensions : {2, 3}) {
+    for (const auto diffusion : {DensityDiffusion::fourtakas, DensityDiffusion::antuono}) runs.run(column(dimensions, diffusion));
+    run_walls(runs, dimensions);
+    run_motion(runs, dimensions);
+  }
+  for (const auto integrator : {Integrator::runge_kutta_4, Integrator::predictor_corrector}) {
+    Case scene = column(2);
+    scene.numerics.integrator = integrator;
+    runs.run(scene);
+  }
+  // tiles of sixteen lanes, which read beyond the last particle
+  Case open_water = column(3, DensityDiffusion::antuono);
+  open_water.bodies.clear();
+  runs.run_wide(open_water);
+  runs.run_wide(column(3));  // past the box, which is thin
+}
+
+}  // namespace
+
+EveryKernel run_every_kernel(const compute::DeviceInfo& device, KernelCases cases, const std::function<void(const std::string&)>& tell) {
+  Runs runs(device, tell);
+  if (cases == KernelCases::few) {
+    run_few(runs);
+  } else {
+    run_all(runs);
+  }
+  return runs.result();
+}
+
+std::vector<Check> check_every_kernel(const compute::DeviceInfo& device) {
+  const EveryKernel found = run_every_kernel(device, KernelCases::few, [](const std::string&) {});
+  const auto none = [](const std::string& what, std::size_t count) { return Check{what, static_cast<double>(count), 0, 0, ""}; };
+  return {none("kernels that did not run, of " + std::to_string(found.run.size() + found.missing.size()), found.missing.size()),
+          none("values that are not finite", found.not_finite), none("cases stopped, of " + std::to_string(found.cases), found.violations),
+          none("cases with wrong counts of pairs", found.wrong_pairs)};
+}
+
+}  // namespace wavetank::bench
