@@ -1,6 +1,7 @@
 // The live node: everything is in TankNode; here are only the process's beginning and end.
 #include <ros/ros.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -19,6 +20,8 @@ const char* const usage =
     "Topics, services and the node's own parameters: docs/topics.md. Without a ROS master, use wavetank_run.\n"
     "Exit code: 0 at the end, 2 if the case cannot be read or laid out, 3 if the simulation failed.\n";
 
+std::atomic<bool> is_asked_to_end{false};  // roscpp forgets what it was asked before its first NodeHandle
+
 void log_to_ros(wavetank::LogLevel level, const std::string& line) {
   switch (level) {
     case wavetank::LogLevel::info:
@@ -36,7 +39,10 @@ void log_to_ros(wavetank::LogLevel level, const std::string& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const wavetank::EndingSignals signals([](int) { ros::requestShutdown(); });
+  const wavetank::EndingSignals signals([](int) {
+    is_asked_to_end = true;
+    ros::requestShutdown();
+  });
   ros::init(argc, argv, "wavetank", ros::init_options::NoSigintHandler);
   for (int i = 1; i < argc; ++i) {
     const bool version = std::strcmp(argv[i], "--version") == 0;
@@ -47,12 +53,13 @@ int main(int argc, char** argv) {
   wavetank::set_log_sink(log_to_ros);
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
+  if (is_asked_to_end) return 0;
   ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
   try {
     wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
     ros::AsyncSpinner spinner(2);
     spinner.start();
-    while (ros::ok() && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
+    while (ros::ok() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
     spinner.stop();
     return node.finish();
   } catch (const std::exception& error) {

@@ -45,8 +45,10 @@ class KernelMaker {
   static constexpr const char* fast = " -cl-fast-relaxed-math";
 
   compute::Kernel kernel(const std::string& file, const std::string& name, const std::string& options) const {
-    const auto [program, is_new] = programs_.try_emplace({file, options});
-    if (is_new) program->second = compute::Program(device_, files_, file, options, compute::Build::at_first_use);
+    const std::pair<std::string, std::string> key(file, options);
+    auto program = programs_.find(key);
+    if (program == programs_.end())
+      program = programs_.emplace(key, compute::Program(device_, files_, file, options, compute::Build::at_first_use)).first;
     return program->second.kernel(name);
   }
 

@@ -53,6 +53,7 @@ template <class Real>
 void GuardImpulses<Real>::clear() {
   hits.fill_zero();
   std::fill(values_.begin(), values_.end(), 0.0);
+  gathered_ = false;
 }
 
 template class GuardImpulses<float>;

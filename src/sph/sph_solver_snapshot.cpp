@@ -60,6 +60,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   blocks.expect_no_others(names);
 
   if (moving_walls_) moving_walls_->list_for(walls_, listed);
+  guarded_.clear();
   guarded_.values() = impulses;
   report_.upload(step);
   step_ = step[field::report_step];

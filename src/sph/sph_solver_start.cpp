@@ -111,7 +111,12 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   WallArrays<Real> of_guard = ghosts_ ? with_lid(true) : WallArrays<Real>();
   const auto launch_among = [this](WallArrays<Real>& walls, const BoundSweep& kernel) {
     std::swap(walls_, walls);
-    kernel.launch(count_);
+    try {
+      kernel.launch(count_);
+    } catch (...) {
+      std::swap(walls_, walls);
+      throw;
+    }
     std::swap(walls_, walls);
   };
   packing_parts_ = Buffer(device_, chunks_);

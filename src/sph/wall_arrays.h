@@ -25,7 +25,7 @@ struct WallArrays {
 
   WallKind kind = WallKind::facets;
   int count = 0;
-  int stride = 0;             ///< from a field to the next; of facets, from a facet to the next
+  int stride = 0;                ///< from a field to the next; of facets, from a facet to the next
   compute::Buffer<Real> fields;  ///< as field::Wall has them for the kind
   compute::Buffer<int> starts;   ///< of each cell, one more than cells: in the fields, or in the list
   compute::Buffer<int> list;     ///< of facets by cell

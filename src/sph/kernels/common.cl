@@ -64,6 +64,18 @@ typedef struct {
 #define FACING_OWNERS 2       // other owners whose walls a piece of wall may face nearer than the support
 #define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
 
+// to's position = from's position + displacement, with what rounding loses carried on (Kahan).
+INLINE void move_from(__global const real* from, __global real* to, long stride, int axis, int i, real displacement) {
+  const long position = (FIELD_X + axis) * stride + i, rest = (FIELD_REST_X + axis) * stride + i;
+  const real before = from[position];
+  const real wanted = displacement - from[rest];
+  const real sum = before + wanted;
+  to[rest] = (sum - before) - wanted;
+  to[position] = sum;
+}
+
+INLINE void move(__global real* state, long stride, int axis, int i, real displacement) { move_from(state, state, stride, axis, i, displacement); }
+
 // By its bits: fast-math deletes a comparison with itself.
 INLINE bool not_finite(real value) {
 #if USE_DOUBLE

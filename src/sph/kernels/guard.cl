@@ -125,7 +125,11 @@ INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* stat
     __global real* at = state + (FIELD_X + axis) * stride + i;
     __global real* speed = state + (FIELD_U + axis) * stride + i;
     const held_t held = hold_between(*at, *speed, lower[axis] + margin, upper[axis] - margin, p->guard_distance);
-    *at += held.move;
+    if (IS_LONG(axis)) {
+      move(state, stride, axis, i, held.move);
+    } else {
+      *at += held.move;
+    }
     *speed = held.speed;
     hit = hit || held.hit;
   }
@@ -178,12 +182,18 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   guard_hits[i] |= a.hits > 0 ? 1 : 0;
   state[FIELD_U * stride + i] = a.u;
   state[FIELD_W * stride + i] = a.w;
-  state[FIELD_X * stride + i] += a.x;
-  state[FIELD_Z * stride + i] += a.z;
 #if DIMENSIONS == 3
   state[FIELD_V * stride + i] = a.v;
-  state[FIELD_Y * stride + i] += a.y;
 #endif
+  const real back_by[3] = {a.x, a.y, a.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (DIMENSIONS == 2 && axis == 1) continue;
+    if (IS_LONG(axis)) {
+      move(state, stride, axis, i, back_by[axis]);
+    } else {
+      state[(FIELD_X + axis) * stride + i] += back_by[axis];
+    }
+  }
 #if GUARD_IMPULSES
   for (int slot = 0; slot < GUARD_OWNERS; ++slot) {
     takers[slot * stride + i] = a.owners[slot];

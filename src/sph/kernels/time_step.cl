@@ -36,18 +36,6 @@ INLINE void leave_out(__global real* half_state, long stride, int i) {
   half_state[FIELD_VOLUME * stride + i] = R(0.0);
 }
 
-// to's position = from's position + displacement, with what rounding loses carried on (Kahan).
-INLINE void move_from(__global const real* from, __global real* to, long stride, int axis, int i, real displacement) {
-  const long position = (FIELD_X + axis) * stride + i, rest = (FIELD_REST_X + axis) * stride + i;
-  const real before = from[position];
-  const real wanted = displacement - from[rest];
-  const real sum = before + wanted;
-  to[rest] = (sum - before) - wanted;
-  to[position] = sum;
-}
-
-INLINE void move(__global real* state, long stride, int axis, int i, real displacement) { move_from(state, state, stride, axis, i, displacement); }
-
 __kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, long stride) {
   const int i = get_global_id(0);
   if (i < count) derive(p, state, stride, i, state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
@@ -80,6 +68,11 @@ INLINE void wrap(__constant const parameters_t* p, __global real* state, long st
     if (period[axis] == R(0.0)) continue;
     __global real* position = state + (FIELD_X + axis) * stride + i;
     const real start = lower[axis] + R(0.5) * p->spacing;  // the watchdog's box is larger by this
+    if (IS_LONG(axis)) {
+      const real way = *position < start ? period[axis] : *position >= start + period[axis] ? -period[axis] : R(0.0);
+      if (way != R(0.0)) move(state, stride, axis, i, way);
+      continue;
+    }
     if (*position < start) *position += period[axis];
     if (*position >= start + period[axis]) *position -= period[axis];
   }

@@ -116,6 +116,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
       walls.share = R(0.0);
       if (first + own < end) find_screen(p, &walls, state[FIELD_X * stride + first + own], state[FIELD_Y * stride + first + own], state[FIELD_Z * stride + first + own]);
 #endif
+      if (first + own < end) stand_at(&walls, state, stride, first + own);
       touching[own] = first + own < end && touches(p, first + own, state, stride, &walls, images, owner);
       any = any || touching[own];
     }
