@@ -24,11 +24,14 @@ struct WaterColumn {
 /// The columns of all water, on a floor plan of one and a half spacings.
 std::vector<WaterColumn> water_columns(const Layout& layout) {
   const double cell = 1.5 * layout.spacing, gap = 1.75 * layout.spacing, half = 0.5 * layout.spacing;
-  std::map<std::array<int, 2>, std::vector<std::pair<double, double>>> heights;  // of particles, and their levels
+  const Vector3d& up = layout.up;
+  const Vector3d beside = std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d along = (beside - up.dot(beside) * up).normalized(), across = up.cross(along);
+  std::map<std::array<int, 2>, std::vector<std::pair<double, double>>> heights;  // of particles along `up`, and their levels
   for (std::size_t i = 0; i < layout.particles.size(); ++i) {
     const Vector3d from_corner = layout.particles[i] - layout.domain.min;
-    heights[{static_cast<int>(std::floor(from_corner.x() / cell)), static_cast<int>(std::floor(from_corner.y() / cell))}].emplace_back(
-        layout.particles[i].z(), layout.levels[i]);
+    heights[{static_cast<int>(std::floor(along.dot(from_corner) / cell)), static_cast<int>(std::floor(across.dot(from_corner) / cell))}]
+        .emplace_back(up.dot(layout.particles[i]), layout.levels[i]);
   }
   std::vector<WaterColumn> columns;
   for (auto& [place, particles] : heights) {

@@ -86,6 +86,18 @@ TEST(ShallowWater, IsToldBelowFourSpacings) {
   expect_shallow(box_case(Vector3d(0.4, 0.4, 0.4), 0.1, 0.04), true);
 }
 
+TEST(ShallowWater, IsSoAlongGravityWhereverItPoints) {
+  for (const double way : {-1.0, 1.0})
+    for (const double depth : {0.06, 0.1}) {
+      Case scene = box_case(Vector3d(0.6, 0, 1), 1, 0.02);
+      scene.gravity = Vector3d(way * 9.81, 0, 0);
+      const double floor = way < 0 ? 0 : 0.6, surface = floor - way * depth;
+      scene.fluid.fill = {Box{Vector3d(std::min(floor, surface), 0, 0), Vector3d(std::max(floor, surface), 0, 1)}};
+      expect_shallow(scene, depth < 0.08);
+      EXPECT_NEAR(size_of_case(scene).least_depth, depth, 1e-6);
+    }
+}
+
 TEST(ShallowWater, IsToldOfOneOfTwoWatersAndOfALayerBeforeADam) {
   Case scene = box_case(Vector3d(1, 0, 0.6), 0.3, 0.02);
   scene.fluid.fill = {Box{Vector3d(0, 0, 0), Vector3d(0.3, 0, 0.3)}, Box{Vector3d(0.9, 0, 0), Vector3d(1, 0, 0.04)}};
