@@ -5,7 +5,8 @@
 namespace wavetank {
 
 template <class Real>
-GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners)
+GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners,
+                                   int report_place)
     : hits(device, particles),
       takers(device, gives ? field::guard_owners * static_cast<std::size_t>(stride) : 1),
       lost(device, gives ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1),
@@ -16,6 +17,7 @@ GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, in
       chunks_(chunks_of(particles)),
       owners_(static_cast<int>(owners)),
       values_(gives ? owners * field::impulse_count : 0, 0.0),
+      report_place_(report_place),
       value_count_(static_cast<int>(values_.size())),
       parts_(device, values_.size() * chunks_) {}
 
@@ -45,7 +47,7 @@ void GuardImpulses<Real>::gather() {
 
 template <class Real>
 void GuardImpulses<Real>::read(const std::vector<Real>& report) {
-  if (gathered_) std::copy_n(report.begin() + field::report_impulses, values_.size(), values_.begin());
+  if (gathered_) std::copy_n(report.begin() + report_place_, values_.size(), values_.begin());
   gathered_ = false;
 }
 

@@ -12,8 +12,8 @@ namespace wavetank {
 template <class Real>
 class GuardImpulses {
  public:
-  /// `gives`: bodies, or the tank, get what the guard takes.
-  GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners);
+  /// `gives`: bodies, or the tank, get what the guard takes; `report_place`: where the step's report has it.
+  GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners, int report_place);
 
   /// Names what the guard writes. This must stay where it is once that is done.
   void add_to(compute::Arguments& arguments);
@@ -41,6 +41,7 @@ class GuardImpulses {
   Stride stride_;
   int chunks_, owners_;
   std::vector<double> values_;
+  int report_place_;
   bool gathered_ = false;  ///< and not yet read
   int value_count_;
   compute::Buffer<Real> parts_;

@@ -46,20 +46,7 @@ constexpr int wrench_count = 12;
 constexpr int guard_owners = 2;
 constexpr int facing_owners = 2;
 constexpr int impulse_count = 6;
-constexpr int watch_count = 2;
 constexpr int energy_count = 7;
-enum Report { report_step, report_speed, report_acceleration, report_alarms = 4, report_impulses = 12 };
-enum Alarm {
-  alarm_not_finite,
-  alarm_outside,
-  alarm_fast,
-  alarm_first,
-  alarm_guard,
-  alarm_shepard,
-  alarm_infected,
-  alarm_first_infected,
-  alarm_count
-};
 constexpr int reduce_chunk = 256;
 constexpr int scan_block = 256;
 }  // namespace field

@@ -10,8 +10,8 @@ namespace wavetank {
 namespace {
 
 /// A device gives so much memory in all, in pieces of bounded size, and kernels count particles with an int.
-void check_size(const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
-  const FieldTable fields(common_fields());
+void check_size(const SolverRows& rows, const compute::DeviceInfo& device, std::size_t particles, std::size_t bytes_a_value) {
+  const FieldTable fields(rows.fields);
   const std::size_t largest = fields.count(ParticleArray::state);                     // array's values of a particle
   const std::size_t least_values = 2 * largest + fields.count(ParticleArray::rates);  // of a particle, in all
   constexpr std::size_t most_counted = std::numeric_limits<int>::max() / 2;
@@ -24,15 +24,21 @@ void check_size(const compute::DeviceInfo& device, std::size_t particles, std::s
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const compute::Device& device, const Case& settled_case, const Layout& layout,
-                                    const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
+std::unique_ptr<Solver> make_solver_of(const SolverRows& rows, const compute::Device& device, const Case& settled_case,
+                                       const Layout& layout, const Discretisation& discretisation,
+                                       const std::vector<Eigen::Vector3d>& centres) {
   const bool single = settled_case.numerics.precision == Precision::single;
-  check_size(device.info(), layout.particles.size(), single ? sizeof(float) : sizeof(double));
-  if (single) return std::make_unique<SphSolver<float>>(device, settled_case, layout, discretisation, centres);
+  check_size(rows, device.info(), layout.particles.size(), single ? sizeof(float) : sizeof(double));
+  if (single) return std::make_unique<SphSolver<float>>(rows, device, settled_case, layout, discretisation, centres);
   if (!device.info().has_double)
     throw Error("numerics/precision is double, but the device " + device.info().describe() +
                 " has no double precision: choose single or another device.");
-  return std::make_unique<SphSolver<double>>(device, settled_case, layout, discretisation, centres);
+  return std::make_unique<SphSolver<double>>(rows, device, settled_case, layout, discretisation, centres);
+}
+
+std::unique_ptr<Solver> make_solver(const compute::Device& device, const Case& settled_case, const Layout& layout,
+                                    const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
+  return make_solver_of(SolverRows(), device, settled_case, layout, discretisation, centres);
 }
 
 }  // namespace wavetank

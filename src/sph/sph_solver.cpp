@@ -26,9 +26,9 @@ bool all_finite(const std::vector<WallWrench>& wrenches) {
 
 /// How far a particle may be from where it was sorted when wrenches are found, m: a step is courant h/c₀ at the most, and at half the speed
 /// of sound the watchdog ends the run.
-double farthest_drift(const Case& scene, const Discretisation& d) {
+double farthest_drift(const Schedule& schedule, const Case& scene, const Discretisation& d) {
   const double way = 0.5 * scene.numerics.courant * d.smoothing_length;
-  return std::max(0.25 * d.spacing, schedule_of(scene.numerics.integrator, nullptr).drift() * way);
+  return std::max(0.25 * d.spacing, schedule.drift() * way);
 }
 
 /// Whole vectors, and one more: a tile may read beyond the last particle.
@@ -37,8 +37,8 @@ int padded(int count) { return (count + 31) / 16 * 16; }
 }  // namespace
 
 template <class Real>
-SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
-                           const std::vector<Eigen::Vector3d>& centres)
+SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device, const Case& scene, const Layout& layout,
+                           const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
     : device_(device),
       case_(scene),
       discretisation_(discretisation),
@@ -47,7 +47,8 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       chunks_(chunks_of(count_)),
       groups_(chunks_of(chunks_)),
       sources_(kernel_sources()),
-      fields_(common_fields()),
+      fields_(rows.fields),
+      reports_(rows.reports),
       first_{fields_.at(ParticleArray::state, "x"), fields_.at(ParticleArray::state, "rest_x"), fields_.at(ParticleArray::state, "u")},
       centres_(centres),
       boxes_(owner_boxes(layout, centres)),
@@ -63,21 +64,22 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
       rates_(make_array(ParticleArray::rates)),
       gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
       half_(make_array(ParticleArray::state)),
-      sum_(scene.numerics.integrator == Integrator::symplectic ? Buffer(device, 0) : make_array(ParticleArray::sums)),
+      sum_(rows.integrator(scene, nullptr).writes("sum of rates") ? make_array(ParticleArray::sums) : Buffer(device, 0)),
       id_(device, count_),
       spare_id_(device, count_),
       images_(tank_images(scene, layout, discretisation)),
       walls_(case_walls_.arrays<Real>(device)),
       loads_(device, elements_ ? walls_.stride : 1),
-      wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty(), farthest_drift(scene, discretisation)),
-      guarded_(device, anything_free(scene), count_, stride_, centres.size()),
-      report_(device, field::report_impulses + guarded_.values().size()),
-      watches_(device, static_cast<std::size_t>(chunks_) * field::watch_count),
+      wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty(),
+                farthest_drift(rows.integrator(scene, nullptr), scene, discretisation)),
+      guarded_(device, anything_free(scene), count_, stride_, centres.size(), reports_.size()),
+      report_(device, static_cast<std::size_t>(reports_.size()) + guarded_.values().size()),
+      watches_(device, static_cast<std::size_t>(chunks_) * reports_.greatest_count()),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       fillings_(device, stride_),
-      group_watches_(device, static_cast<std::size_t>(groups_) * field::watch_count),
-      alarms_(device, static_cast<std::size_t>(chunks_) * field::alarm_count),
-      group_alarms_(device, static_cast<std::size_t>(groups_) * field::alarm_count) {
+      group_watches_(device, static_cast<std::size_t>(groups_) * reports_.greatest_count()),
+      alarms_(device, static_cast<std::size_t>(chunks_) * reports_.integer_count()),
+      group_alarms_(device, static_cast<std::size_t>(groups_) * reports_.integer_count()) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
   const WallMotions at_start = motions_at_start();
@@ -87,10 +89,10 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
   options_ = build_options(
       scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
-  const std::vector<ParameterRow>& parameters = common_parameters();
-  values_.emplace(parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
-  sources_["parameters.cl"] = parameters_header(parameters);
+  values_.emplace(rows.parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
+  sources_["parameters.cl"] = parameters_header(rows.parameters);
   sources_["fields.cl"] = fields_.header();
+  sources_["report.cl"] = reports_.header();
   upload_parameters(*values_);
   surroundings_.stride = stride_;
   surroundings_.reach = static_cast<Real>(discretisation_.support);
@@ -102,7 +104,7 @@ SphSolver<Real>::SphSolver(const compute::Device& device, const Case& scene, con
   bind_kernels();
   set_wall_motions(at_start);
   upload_particles(layout);
-  schedule_ = schedule_of(scene.numerics.integrator, this);
+  schedule_ = rows.integrator(scene, this);
   schedule_.check();
 }
 
@@ -361,7 +363,7 @@ template <class Real>
 double SphSolver<Real>::shorten_step(double longest) {
   if (!(longest < step_)) return step_;
   const Real step = static_cast<Real>(longest);
-  report_.memory().write(&step, sizeof step, field::report_step * sizeof step);
+  report_.memory().write(&step, sizeof step);  // its first value
   return step_ = step;
 }
 
@@ -373,18 +375,24 @@ StepReport SphSolver<Real>::watch() {
   kernels_.watch_total.launch(1);
   const std::vector<Real> values = report_.download();
   guarded_.read(values);
-  int alarm[field::alarm_count];
-  std::memcpy(alarm, &values[field::report_alarms], sizeof alarm);
+  std::vector<int> counted(reports_.integer_count());
+  std::memcpy(counted.data(), &values[reports_.integers()], counted.size() * sizeof(int));
+  const auto greatest = [&](const char* name) { return static_cast<double>(values[reports_.greatest(name)]); };
+  const auto count = [&](const char* name) { return counted[reports_.integer(name)]; };
   StepReport report;
-  report.time_step = step_ = values[field::report_step];
-  report.greatest_speed = greatest_speed_ = values[field::report_speed];
-  report.greatest_acceleration = greatest_acceleration_ = values[field::report_acceleration];
-  report.not_finite = alarm[field::alarm_not_finite];
-  report.outside = alarm[field::alarm_outside];
-  report.too_fast = alarm[field::alarm_fast];
-  report.guard_hits = alarm[field::alarm_guard];
-  report.shepard_bounded = alarm[field::alarm_shepard];
-  if (report.not_finite + report.outside + report.too_fast > 0) describe_offender(report, alarm[field::alarm_first]);
+  report.time_step = step_ = values[0];
+  report.greatest_speed = greatest_speed_ = greatest("speed");
+  report.greatest_acceleration = greatest_acceleration_ = greatest("acceleration");
+  report.not_finite = count("not_finite");
+  report.outside = count("outside");
+  report.too_fast = count("fast");
+  report.guard_hits = count("guarded");
+  report.shepard_bounded = count("bounded");
+  for (std::size_t k = common_reports().size(); k < reports_.rows().size(); ++k) {
+    const ReportRow& row = reports_.rows()[k];
+    report.more[row.name] = row.kind == ReportRow::Kind::greatest ? greatest(row.name.c_str()) : count(row.name.c_str());
+  }
+  if (report.not_finite + report.outside + report.too_fast > 0) describe_offender(report, count("offender"));
   return report;
 }
 

@@ -14,8 +14,7 @@
 #include "moving_walls.h"
 #include "row_sums.h"
 #include "surroundings.h"
-#include "tables/fields.h"
-#include "tables/parameters.h"
+#include "tables/rows.h"
 #include "tank_images.h"
 #include "wall_wrenches.h"
 #include "wavetank/sph/solver.h"
@@ -27,8 +26,8 @@ namespace wavetank {
 template <class Real>
 class SphSolver final : public Solver, private StepEngine {
  public:
-  SphSolver(const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
-            const std::vector<Eigen::Vector3d>& centres);
+  SphSolver(const SolverRows& rows, const compute::Device& device, const Case& scene, const Layout& layout,
+            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres);
 
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override;
   StepReport start() override;
@@ -140,6 +139,7 @@ class SphSolver final : public Solver, private StepEngine {
   BuildOptions options_;
   compute::SourceFiles sources_;
   FieldTable fields_;
+  ReportTable reports_;
   FirstFields first_;
   std::optional<ParameterBlock> values_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the walls' owners, as the layout has them

@@ -8,7 +8,6 @@
 namespace wavetank {
 namespace {
 
-constexpr std::size_t step_values = 3;  ///< of the report: the next step and what it follows from
 constexpr const char* step_block = "step: next, greatest speed, greatest acceleration";
 constexpr const char* lists_block = "walls: poses of the lists";
 constexpr const char* guard_block = "guard: impulses";
@@ -33,7 +32,7 @@ std::vector<char> SphSolver<Real>::save() const {
       blocks.put(block_of(row, component), by_id);
     }
   }
-  blocks.put(step_block, report_.download(step_values));
+  blocks.put(step_block, std::vector<double>{step_, greatest_speed_, greatest_acceleration_});
   blocks.put(lists_block, moving_walls_ ? moving_walls_->listed() : std::vector<double>());
   blocks.put(guard_block, guarded_.values());
   return blocks.bytes();
@@ -54,7 +53,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
       std::copy(by_id.begin(), by_id.end(), to.begin() + static_cast<std::ptrdiff_t>(index_of(component.c_str(), 0, row.array)));
     }
   }
-  const std::vector<Real> step = blocks.get<Real>(step_block, step_values);
+  const std::vector<double> step = blocks.get<double>(step_block, 3);
   const std::vector<double> listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
   const std::vector<double> impulses = blocks.get<double>(guard_block, guarded_.values().size());
   blocks.expect_no_others(names);
@@ -62,10 +61,10 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   if (moving_walls_) moving_walls_->list_for(walls_, listed);
   guarded_.clear();
   guarded_.values() = impulses;
-  report_.upload(step);
-  step_ = step[field::report_step];
-  greatest_speed_ = step[field::report_speed];
-  greatest_acceleration_ = step[field::report_acceleration];
+  step_ = step[0];
+  greatest_speed_ = step[1];
+  greatest_acceleration_ = step[2];
+  report_.upload({static_cast<Real>(step_)});  // its first value, which the next step reads
   std::vector<std::uint32_t> id(count_);
   std::iota(id.begin(), id.end(), 0U);
   state_.upload(state);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ struct StepReport {
   int too_fast = 0;                  ///< particles faster than c₀/2
   int guard_hits = 0;
   int shepard_bounded = 0;
-  std::int64_t offender = -1;  ///< index of the first offending particle, or -1
+  std::map<std::string, double> more;  ///< what rows that a case adds report, by their names
+  std::int64_t offender = -1;          ///< index of the first offending particle, or -1
   std::uint32_t offender_id = 0;
   Eigen::Vector3d offender_position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
   Eigen::Vector3d offender_velocity = Eigen::Vector3d::Zero();  ///< m/s

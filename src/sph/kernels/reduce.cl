@@ -3,96 +3,69 @@
 #include "common.cl"
 
 #define REDUCE_CHUNK 256
-#define NOBODY 0x7fffffff
+// What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
+typedef struct {
+  int broken;    // a place or a velocity is not finite
+  int infected;  // the compression or γ alone is not
+  int sound;     // neither
+  int outside, fast;
+  int guarded;  // guard hits
+  real speed2, acceleration2, shepard;
+} watched_t;
 
-// What the host reads after a step, at once.
-#define REPORT_STEP 0         // Δt of the next step
-#define REPORT_SPEED 1        // greatest |u|
-#define REPORT_ACCELERATION 2 // greatest |du/dt|
-#define REPORT_ALARMS 4       // ALARM_COUNT integers
-#define REPORT_IMPULSES 12    // that the guard took from the particles, IMPULSE_COUNT for each owner of walls
+#include "report.cl"
 
-#define WATCH_SPEED 0         // greatest |u|²
-#define WATCH_ACCELERATION 1  // greatest |du/dt|²
-#define WATCH_COUNT 2
-
-#define ALARM_NOT_FINITE 0    // how many
-#define ALARM_OUTSIDE 1
-#define ALARM_FAST 2
-#define ALARM_FIRST 3         // the least index of an offender
-#define ALARM_GUARD 4         // guard hits of this step
-#define ALARM_SHEPARD 5       // γ bounded
-#define ALARM_INFECTED 6      // not finite in the compression alone, which follows from that of others, and the least index of such
-#define ALARM_FIRST_INFECTED 7
-#define ALARM_COUNT 8
+INLINE watched_t watched(__constant const parameters_t* p, __global const real* state, __global const real* rates, long stride, int guarded, int i) {
+  const real x = state[FIELD_X * stride + i], y = state[FIELD_Y * stride + i], z = state[FIELD_Z * stride + i];
+  const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
+  const real a = rates[RATE_U * stride + i], b = rates[RATE_V * stride + i], c = rates[RATE_W * stride + i];
+  watched_t found;
+  found.speed2 = u * u + v * v + w * w;
+  found.acceleration2 = a * a + b * b + c * c;
+  found.shepard = rates[RATE_SHEPARD * stride + i];
+  found.broken = not_finite(x) || not_finite(y) || not_finite(z) || not_finite(found.speed2) ? 1 : 0;
+  found.infected = !found.broken && (not_finite(state[FIELD_COMPRESSION * stride + i]) || not_finite(found.shepard)) ? 1 : 0;
+  found.sound = !found.broken && !found.infected ? 1 : 0;
+  const bool beyond = x < p->lower_x || x > p->upper_x || y < p->lower_y || y > p->upper_y || z < p->lower_z || z > p->upper_z;
+  found.outside = found.sound && beyond ? 1 : 0;
+  found.fast = found.sound && found.speed2 > p->greatest_speed * p->greatest_speed ? 1 : 0;
+  found.guarded = guarded;
+  return found;
+}
 
 __kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, long stride,
                            __global const int* guard_hits, __global real* watches, __global int* alarms) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= count) return;
-  real speed = R(0.0), acceleration = R(0.0);
-  int broken = 0, outside = 0, fast = 0, first = NOBODY, guarded = 0, bounded = 0, infected = 0, first_infected = NOBODY;
+  real greatest[GREATEST_COUNT];
+  int counted[COUNTED_COUNT];
+  for (int k = 0; k < GREATEST_COUNT; ++k) greatest[k] = R(0.0);
+  for (int k = 0; k < COUNTED_COUNT; ++k) counted[k] = is_first(k) ? NOBODY : 0;
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
-    const real x = state[FIELD_X * stride + i], y = state[FIELD_Y * stride + i], z = state[FIELD_Z * stride + i];
-    const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
-    const real s = state[FIELD_COMPRESSION * stride + i];
-    const real a = rates[RATE_U * stride + i], b = rates[RATE_V * stride + i], c = rates[RATE_W * stride + i];
-    const real shepard = rates[RATE_SHEPARD * stride + i];
-    const real speed2 = u * u + v * v + w * w;
-    const real acceleration2 = a * a + b * b + c * c;
-    int offends = 0;
-    if (not_finite(x) || not_finite(y) || not_finite(z) || not_finite(speed2)) {
-      ++broken;
-      offends = 1;
-    } else if (not_finite(s) || not_finite(shepard)) {
-      ++infected;
-      if (first_infected == NOBODY) first_infected = i;
-    } else {
-      if (x < p->lower_x || x > p->upper_x || y < p->lower_y || y > p->upper_y || z < p->lower_z || z > p->upper_z) {
-        ++outside;
-        offends = 1;
-      }
-      if (speed2 > p->greatest_speed * p->greatest_speed) {
-        ++fast;
-        offends = 1;
-      }
-      speed = fmax(speed, speed2);
-    }
-    // from before the sorting, so of another particle: one that is not finite shows in its own particle's velocity
-    if (!not_finite(acceleration2)) acceleration = fmax(acceleration, acceleration2);
-    if (offends && first == NOBODY) first = i;
-    guarded += guard_hits[i];
-    bounded += shepard > R(1.005) || shepard < R(0.05) ? 1 : 0;
+    const watched_t found = watched(p, state, rates, stride, guard_hits[i], i);
+    watch_particle(&found, p, state, rates, stride, i, greatest, counted);
   }
-  watches[chunk * WATCH_COUNT + WATCH_SPEED] = speed;
-  watches[chunk * WATCH_COUNT + WATCH_ACCELERATION] = acceleration;
-  alarms[chunk * ALARM_COUNT + ALARM_NOT_FINITE] = broken;
-  alarms[chunk * ALARM_COUNT + ALARM_OUTSIDE] = outside;
-  alarms[chunk * ALARM_COUNT + ALARM_FAST] = fast;
-  alarms[chunk * ALARM_COUNT + ALARM_FIRST] = first;
-  alarms[chunk * ALARM_COUNT + ALARM_GUARD] = guarded;
-  alarms[chunk * ALARM_COUNT + ALARM_SHEPARD] = bounded;
-  alarms[chunk * ALARM_COUNT + ALARM_INFECTED] = infected;
-  alarms[chunk * ALARM_COUNT + ALARM_FIRST_INFECTED] = first_infected;
+  for (int k = 0; k < GREATEST_COUNT; ++k) watches[chunk * GREATEST_COUNT + k] = greatest[k];
+  for (int k = 0; k < COUNTED_COUNT; ++k) alarms[chunk * COUNTED_COUNT + k] = counted[k];
 }
 
 // Chunks of what chunks have found.
 __kernel void watch_groups(int chunks, __global const real* watches, __global const int* alarms, __global real* group_watches, __global int* group_alarms) {
   const int group = get_global_id(0);
   if (group * REDUCE_CHUNK >= chunks) return;
-  __global const real* watch = watches + group * REDUCE_CHUNK * WATCH_COUNT;
-  __global const int* alarm = alarms + group * REDUCE_CHUNK * ALARM_COUNT;
-  const int own = min(chunks - group * REDUCE_CHUNK, REDUCE_CHUNK);
-  for (int k = 0; k < WATCH_COUNT; ++k) {
-    real most = watch[k];
-    for (int chunk = 1; chunk < own; ++chunk) most = fmax(most, watch[chunk * WATCH_COUNT + k]);
-    group_watches[group * WATCH_COUNT + k] = most;
+  const int first = group * REDUCE_CHUNK, end = min(chunks, first + REDUCE_CHUNK);
+  for (int k = 0; k < GREATEST_COUNT; ++k) {
+    real most = watches[first * GREATEST_COUNT + k];
+    for (int chunk = first + 1; chunk < end; ++chunk) most = fmax(most, watches[chunk * GREATEST_COUNT + k]);
+    group_watches[group * GREATEST_COUNT + k] = most;
   }
-  for (int k = 0; k < ALARM_COUNT; ++k) {
-    const bool least = k == ALARM_FIRST || k == ALARM_FIRST_INFECTED;
-    int found = alarm[k];
-    for (int chunk = 1; chunk < own; ++chunk) found = least ? min(found, alarm[chunk * ALARM_COUNT + k]) : found + alarm[chunk * ALARM_COUNT + k];
-    group_alarms[group * ALARM_COUNT + k] = found;
+  for (int k = 0; k < COUNTED_COUNT; ++k) {
+    int found = alarms[first * COUNTED_COUNT + k];
+    for (int chunk = first + 1; chunk < end; ++chunk) {
+      const int more = alarms[chunk * COUNTED_COUNT + k];
+      found = is_first(k) ? min(found, more) : found + more;
+    }
+    group_alarms[group * COUNTED_COUNT + k] = found;
   }
 }
 
@@ -100,32 +73,30 @@ __kernel void watch_groups(int chunks, __global const real* watches, __global co
 __kernel void watch_total(__constant const parameters_t* p, int chunks, __global const real* watches, __global const int* alarms, real longest,
                           __global real* report) {
   if (get_global_id(0) != 0) return;
-  real speed = R(0.0), acceleration = R(0.0);
-  int sums[ALARM_COUNT] = {0, 0, 0, 0, 0, 0, 0, 0};
-  int first = NOBODY, first_infected = NOBODY;
-  for (int chunk = 0; chunk < chunks; ++chunk) {
-    speed = fmax(speed, watches[chunk * WATCH_COUNT + WATCH_SPEED]);
-    acceleration = fmax(acceleration, watches[chunk * WATCH_COUNT + WATCH_ACCELERATION]);
-    for (int k = 0; k < ALARM_COUNT; ++k) sums[k] += k == ALARM_FIRST || k == ALARM_FIRST_INFECTED ? 0 : alarms[chunk * ALARM_COUNT + k];
-    first = min(first, alarms[chunk * ALARM_COUNT + ALARM_FIRST]);
-    first_infected = min(first_infected, alarms[chunk * ALARM_COUNT + ALARM_FIRST_INFECTED]);
+  for (int k = 0; k < GREATEST_COUNT; ++k) {
+    real most = R(0.0);
+    for (int chunk = 0; chunk < chunks; ++chunk) most = fmax(most, watches[chunk * GREATEST_COUNT + k]);
+    report[REPORT_GREATEST + k] = end_of(k, most);
   }
-  if (sums[ALARM_NOT_FINITE] == 0 && sums[ALARM_INFECTED] > 0) {  // without another to blame
-    sums[ALARM_NOT_FINITE] = sums[ALARM_INFECTED];
-    first = min(first, first_infected);
+  int counted[COUNTED_COUNT];
+  for (int k = 0; k < COUNTED_COUNT; ++k) {
+    counted[k] = is_first(k) ? NOBODY : 0;
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      const int more = alarms[chunk * COUNTED_COUNT + k];
+      counted[k] = is_first(k) ? min(counted[k], more) : counted[k] + more;
+    }
   }
-  sums[ALARM_FIRST] = first;
-  __global int* alarm = (__global int*)(report + REPORT_ALARMS);
-  for (int k = 0; k < ALARM_COUNT; ++k) alarm[k] = sums[k];
-  speed = sqrt(speed);
-  acceleration = sqrt(acceleration);
+  if (counted[COUNTED_NOT_FINITE] == 0 && counted[COUNTED_INFECTED] > 0) {  // without another to blame
+    counted[COUNTED_NOT_FINITE] = counted[COUNTED_INFECTED];
+    counted[COUNTED_OFFENDER] = min(counted[COUNTED_OFFENDER], counted[COUNTED_FIRST_INFECTED]);
+  }
+  __global int* integers = (__global int*)(report + REPORT_COUNTED);
+  for (int k = 0; k < COUNTED_COUNT; ++k) integers[k] = counted[k];
   const real h = p->smoothing_length;
-  real step = p->courant * h / (p->sound_speed + speed);
-  step = fmin(step, p->courant * sqrt(h / fmax(acceleration, R(1.0e-20))));
+  real step = p->courant * h / (p->sound_speed + report[REPORT_GREATEST + GREATEST_SPEED]);
+  step = fmin(step, p->courant * sqrt(h / fmax(report[REPORT_GREATEST + GREATEST_ACCELERATION], R(1.0e-20))));
   step = fmin(step, p->viscous_time);
   report[REPORT_STEP] = fmin(step, longest);
-  report[REPORT_SPEED] = speed;
-  report[REPORT_ACCELERATION] = acceleration;
 }
 
 #define ENERGY_KINETIC 0

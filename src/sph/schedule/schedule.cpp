@@ -93,6 +93,13 @@ double Schedule::drift() const {
   return most;
 }
 
+bool Schedule::writes(const std::string& array) const {
+  for (const Stage& stage : stages_)
+    for (const Access& access : stage.writes)
+      if (access.array == array) return true;
+  return false;
+}
+
 void Schedule::run() const {
   for (const Stage& stage : stages_) stage.run();
 }

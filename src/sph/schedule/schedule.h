@@ -44,6 +44,8 @@ class Schedule {
   std::string page() const;
   /// How far particles may be from where they were sorted when their neighbours are gone over, in steps.
   double drift() const;
+  /// Whether a stage writes this array at any instant.
+  bool writes(const std::string& array) const;
   void run() const;
 
  private:

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "../integrators/integrator.h"
+#include "fields.h"
+#include "parameters.h"
+#include "reports.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// What a solver is made of beside its kernels: features add rows of their own.
+struct SolverRows {
+  std::vector<FieldRow> fields = common_fields();
+  std::vector<ParameterRow> parameters = common_parameters();
+  std::vector<ReportRow> reports = common_reports();
+  /// The steps of a case; `engine` may be null where they are not run.
+  std::function<Schedule(const Case&, StepEngine* engine)> integrator = [](const Case& scene, StepEngine* engine) {
+    return schedule_of(scene.numerics.integrator, engine);
+  };
+};
+
+/// As make_solver, with these rows.
+std::unique_ptr<Solver> make_solver_of(const SolverRows& rows, const compute::Device& device, const Case& settled_case,
+                                       const Layout& layout, const Discretisation& discretisation,
+                                       const std::vector<Eigen::Vector3d>& centres);
+
+}  // namespace wavetank
