@@ -47,6 +47,17 @@ TEST_F(Rows, AFieldGoesWithItsParticleAndIsSaved) {
   for (std::size_t id = 0; id < after.count; ++id) EXPECT_EQ(after.get("salt", id), id + 1.0F);
 }
 
+TEST(ReportTable, RefusesNamesThatAreTaken) {
+  EXPECT_EQ(error_of([] {
+              ReportTable({fresh, {"Fresh", ReportRow::Kind::greatest, "", "", "0"}});
+            }),
+            "two values of a step's report are called \"Fresh\"");
+  EXPECT_EQ(error_of([] {
+              ReportTable({{"count", ReportRow::Kind::count, "", "", "0"}});
+            }),
+            "no value of a step's report may be called \"count\": it is how many there are");
+}
+
 TEST_F(Rows, AStepReportsTheValues) {
   solver->start();
   StateBytes<float> state(*solver);

@@ -70,7 +70,10 @@ INLINE void wrap(__constant const parameters_t* p, __global real* state, long st
     const real start = lower[axis] + R(0.5) * p->spacing;  // the watchdog's box is larger by this
     if (IS_LONG(axis)) {
       const real way = *position < start ? period[axis] : *position >= start + period[axis] ? -period[axis] : R(0.0);
-      if (way != R(0.0)) move(state, stride, axis, i, way);
+      // the way is as large as the position: a sum of two whose rounding is found whichever is larger
+      const real before = *position, sum = before + way, part = sum - before;
+      *position = sum;
+      state[(FIELD_REST_X + axis) * stride + i] -= (before - (sum - part)) + (way - part);
       continue;
     }
     if (*position < start) *position += period[axis];

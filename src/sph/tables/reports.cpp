@@ -23,10 +23,12 @@ std::string define(const std::string& name, int value, const ReportRow& row) {
 }  // namespace
 
 ReportTable::ReportTable(std::vector<ReportRow> rows) : rows_(std::move(rows)) {
+  const auto is = [](const std::string& name) { return [name](const std::string& other) { return upper(other) == upper(name); }; };
   for (const ReportRow& row : rows_) {
     for (const auto* names : {&greatest_, &integers_})
-      if (std::find(names->begin(), names->end(), row.name) != names->end())
+      if (std::any_of(names->begin(), names->end(), is(row.name)))
         throw Error("two values of a step's report are called \"" + row.name + "\"");
+    if (is("count")(row.name)) throw Error("no value of a step's report may be called \"" + row.name + "\": it is how many there are");
     (row.kind == Kind::greatest ? greatest_ : integers_).push_back(row.name);
   }
 }
