@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a C++ file that holds the given kernel sources: embed_kernels.py OUT.cpp FILE.cl..."""
+"""Writes a C++ file that holds the given kernel sources, named as in the folder: embed_kernels.py OUT.cpp FOLDER FILE.cl..."""
 import os
 import sys
 
@@ -11,12 +11,12 @@ def literal(text):
 
 
 def main():
-    out, files = sys.argv[1], sorted(sys.argv[2:])
+    out, folder, files = sys.argv[1], sys.argv[2], sorted(sys.argv[3:])
     lines = ['#include "wavetank/sph/kernel_sources.h"', "", "namespace wavetank {", "",
              "const compute::SourceFiles& embedded_kernel_sources() {", "  static const compute::SourceFiles files = {"]
     for path in files:
         with open(path, encoding="utf-8") as source:
-            lines.append('    {"%s", %s},' % (os.path.basename(path), literal(source.read())))
+            lines.append('    {"%s", %s},' % (os.path.relpath(path, folder), literal(source.read())))
     lines += ["  };", "  return files;", "}", "", "}  // namespace wavetank", ""]
     with open(out, "w", encoding="utf-8") as target:
         target.write("\n".join(lines))

@@ -43,7 +43,7 @@ std::vector<SweepCost> sweep_costs(const BenchCase& bench_case) {
   const double gradient_fields = place + volume + 1;                                                             // x, V, s
   std::vector<SweepCost> costs = {{"momentum", momentum, bytes_of_real * momentum_fields},
                                   {"continuity", continuity, bytes_of_real * continuity_fields}};
-  if (antuono) costs.push_back({"density_gradient", gradient, bytes_of_real * gradient_fields});
+  if (antuono) costs.push_back({"gradients", gradient, bytes_of_real * gradient_fields});
   return costs;
 }
 

@@ -105,7 +105,16 @@ std::string source_line(const SourceFiles& files, const std::string& file, int n
   return first == std::string::npos ? "" : line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+/// Of a path that the compiler names, the file that it ends with.
+std::string file_of(const SourceFiles& files, const std::string& path) {
+  std::string rest = path;
+  while (files.count(rest) == 0) {
+    const auto slash = rest.find('/');
+    if (slash == std::string::npos) break;
+    rest.erase(0, slash + 1);
+  }
+  return rest;
+}
 
 /// Turns a line number of the resolved text into a file and its line, by the #line directives before it.
 void place_in_files(const std::string& resolved, CompilerError& error) {
@@ -179,7 +188,7 @@ std::vector<CompilerError> compiler_errors(const std::string& log, const SourceF
     if (line.size() > 2000 || !(std::regex_match(line, match, place_first) || std::regex_match(line, match, place_last))) continue;
     CompilerError error;
     error.message = match[3];
-    error.file = base_name(match[1]);
+    error.file = file_of(files, match[1]);
     error.line = std::stoi(match[2].str().substr(0, 9));
     if (files.count(error.file) == 0) place_in_files(resolved, error);
     errors.push_back(error);

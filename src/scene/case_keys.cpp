@@ -142,6 +142,21 @@ Section<WallCase> wall_section() {
   return section;
 }
 
+template <class Choice>
+Codec<Choice> method() {
+  std::vector<std::pair<std::string, Choice>> words;
+  for (const MethodWord<Choice>& known : method_words<Choice>()) words.emplace_back(known.word, known.choice);
+  return choice<Choice>(words);
+}
+
+template <class Choice>
+std::string meanings(const std::string& subject) {
+  std::string text = subject;
+  for (const MethodWord<Choice>& known : method_words<Choice>())
+    text += std::string(text == subject ? ": `" : "; `") + known.word + "`, " + known.meaning;
+  return text + ".";
+}
+
 Section<NumericsCase> numerics_section() {
   Section<PackingCase> packing;
   packing.key("iterations", &PackingCase::iterations, whole_number(between(0, 100000)), "",
@@ -150,33 +165,25 @@ Section<NumericsCase> numerics_section() {
       "settling", &PackingCase::settling, number(between(0, 100)), "4 H/c₀",
       "Damped time before the start, in which the water comes to rest with its free sides held; H is its greatest depth. 0 leaves it out.");
   Section<NumericsCase> section;
-  section.key("scheme", &NumericsCase::scheme, choice<Scheme>({{"delta_sph", Scheme::delta_sph}}), "", "The SPH scheme.");
+  section.key("scheme", &NumericsCase::scheme, method<Scheme>(), "", meanings<Scheme>("The SPH scheme"));
   section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",
               "Radius R of the kernel's support; `auto` is 4 in 2-D and 3 in 3-D.");
   section.key("walls", &NumericsCase::walls, section_of(wall_section()), "", "Walls of the tank and of the bodies.");
   section.key(
-      "density_diffusion", &NumericsCase::density_diffusion,
-      choice<DensityDiffusion>(
-          {{"none", DensityDiffusion::none}, {"fourtakas", DensityDiffusion::fourtakas}, {"antuono", DensityDiffusion::antuono}}),
-      "", "Density diffusion of δ-SPH: of the dynamic density, or with renormalised gradients. With none, water at rest does not stay so.");
+      "density_diffusion", &NumericsCase::density_diffusion, method<DensityDiffusion>(), "",
+      meanings<DensityDiffusion>("Density diffusion; where it is not given, `none` with a Riemann scheme, which diffuses by itself"));
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
-              "Coefficient α of the artificial viscosity.");
-  section.key("equation_of_state", &NumericsCase::equation_of_state,
-              choice<EquationOfState>({{"linear", EquationOfState::linear}, {"cole", EquationOfState::cole}}), "",
-              "Pressure from density: linear, or Cole's with exponent 7.");
-  section.key("viscosity_model", &NumericsCase::viscosity_model,
-              choice<ViscosityModel>({{"monaghan_gingold", ViscosityModel::monaghan_gingold}, {"morris", ViscosityModel::morris}}), "",
-              "Form of the physical viscosity's sum.");
+              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme.");
+  section.key("equation_of_state", &NumericsCase::equation_of_state, method<EquationOfState>(), "",
+              meanings<EquationOfState>("Pressure from density"));
+  section.key("viscosity_model", &NumericsCase::viscosity_model, method<ViscosityModel>(), "",
+              meanings<ViscosityModel>("Form of the physical viscosity's sum"));
   section.key("negative_pressure", &NumericsCase::negative_pressure,
               choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
               "What the fluid does where its pressure would fall below that of the air.");
   section.key("shifting", &NumericsCase::shifting, choice<Shifting>({{"none", Shifting::none}}), "", "Particle shifting law.");
-  section.key("integrator", &NumericsCase::integrator,
-              choice<Integrator>({{"symplectic", Integrator::symplectic},
-                                  {"predictor_corrector", Integrator::predictor_corrector},
-                                  {"runge_kutta_4", Integrator::runge_kutta_4}}),
-              "", "Time scheme.");
+  section.key("integrator", &NumericsCase::integrator, method<Integrator>(), "", meanings<Integrator>("Time scheme"));
   section.key("courant", &NumericsCase::courant, number(above_up_to(0, 1.5)), "", "Time step as a fraction of h/(c₀ + |u|).");
   section.key("precision", &NumericsCase::precision, choice<Precision>({{"single", Precision::single}, {"double", Precision::double_}}), "",
               "Of the numbers on the device; not every device has double.");

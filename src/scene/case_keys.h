@@ -14,6 +14,9 @@ const KeyDescription& case_keys();
 /// Where gauges stand depends on gravity: along its axis they have no place.
 void place_gauges(Case& read, const Setting& root);
 
+/// δ-SPH's diffusion and artificial viscosity are the defaults of that scheme only.
+void choose_dissipation(Case& read, const Setting& root);
+
 /// Checks that concern several keys of a case that has been read from `root`: names given twice, gravity out of a 2-D case's plane, ...
 void check_case(const Case& read, const Setting& root);
 

@@ -23,6 +23,7 @@ Case read_settings(scene::Setting root, const std::vector<Override>& overrides, 
   scene::check_files(read, root);  // before there are bodies that the case's text does not name
   scene::build_robots(read, root, surroundings);
   scene::place_gauges(read, root);
+  scene::choose_dissipation(read, root);
   scene::check_case(read, root);
   return read;
 }

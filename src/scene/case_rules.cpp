@@ -133,6 +133,14 @@ void place_gauges(Case& read, const Setting& root) {
   }
 }
 
+void choose_dissipation(Case& read, const Setting& root) {
+  if (read.numerics.scheme == Scheme::delta_sph) return;
+  const Setting* numerics = root.find("numerics");
+  const auto given = [&](const char* key) { return numerics != nullptr && numerics->find(key) != nullptr; };
+  if (!given("density_diffusion")) read.numerics.density_diffusion = DensityDiffusion::none;
+  if (!given("artificial_viscosity")) read.numerics.artificial_viscosity = 0;
+}
+
 void check_case(const Case& read, const Setting& root) {
   if (read.dimensions == 2 && read.gravity.y() != 0.0) {
     refuse(nearest_setting(root, "gravity"), {"gravity", "m/s²"}, "within the x–z plane of a 2-D case, [x, 0, z] or [x, z]");

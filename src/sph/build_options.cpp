@@ -28,11 +28,7 @@ BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
   return {
       {"DIMENSIONS", scene.dimensions},
       {"USE_DOUBLE", choice.use_double},
-      {"DIFFUSION_FOURTAKAS", n.density_diffusion == DensityDiffusion::fourtakas},
-      {"DIFFUSION_ANTUONO", n.density_diffusion == DensityDiffusion::antuono},
-      {"VISCOSITY_MORRIS", n.viscosity_model == ViscosityModel::morris},
       {"NO_SLIP", n.walls.slip == Slip::no_slip},
-      {"COLE", n.equation_of_state == EquationOfState::cole},
       {"CLAMP_PRESSURE", n.negative_pressure == NegativePressure::clamped},
       {"FACETS", kind_of(n.walls) == WallKind::facets},
       {"TRIANGLES", kind_of(n.walls) == WallKind::triangles},

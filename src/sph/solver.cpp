@@ -24,9 +24,26 @@ void check_size(const SolverRows& rows, const compute::DeviceInfo& device, std::
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver_of(const SolverRows& rows, const compute::Device& device, const Case& settled_case,
+SolverRows rows_for(const Case& settled_case, SolverRows rows) {
+  for (const Method& method : rows.methods(settled_case)) {
+    for (const FieldRow& field : method.fields) {
+      const auto same = std::find_if(rows.fields.begin(), rows.fields.end(), [&](const FieldRow& other) {
+        return other.array == field.array && other.components == field.components;
+      });
+      if (same == rows.fields.end())
+        rows.fields.push_back(field);
+      else
+        *same = field;
+    }
+    rows.parameters.insert(rows.parameters.end(), method.parameters.begin(), method.parameters.end());
+  }
+  return rows;
+}
+
+std::unique_ptr<Solver> make_solver_of(const SolverRows& given, const compute::Device& device, const Case& settled_case,
                                        const Layout& layout, const Discretisation& discretisation,
                                        const std::vector<Eigen::Vector3d>& centres) {
+  const SolverRows rows = rows_for(settled_case, given);
   const bool single = settled_case.numerics.precision == Precision::single;
   check_size(rows, device.info(), layout.particles.size(), single ? sizeof(float) : sizeof(double));
   if (single) return std::make_unique<SphSolver<float>>(rows, device, settled_case, layout, discretisation, centres);

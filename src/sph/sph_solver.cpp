@@ -62,7 +62,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
       state_(make_array(ParticleArray::state)),
       rates_(make_array(ParticleArray::rates)),
-      gradient_(device, scene.numerics.density_diffusion == DensityDiffusion::antuono ? 3 * static_cast<std::size_t>(stride_) : 0),
+      gradient_(device, gradient_components(rows.methods(scene)) * static_cast<std::size_t>(stride_)),
       half_(make_array(ParticleArray::state)),
       sum_(rows.integrator(scene, nullptr).writes("sum of rates") ? make_array(ParticleArray::sums) : Buffer(device, 0)),
       id_(device, count_),
@@ -90,6 +90,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   options_ = build_options(
       scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
   values_.emplace(rows.parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
+  accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
+  add_options(rows.methods(scene), options_);
+  add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);
   sources_["fields.cl"] = fields_.header();
   sources_["report.cl"] = reports_.header();
@@ -139,10 +142,12 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<Real> state(state_.size(), Real(0));
   std::vector<std::uint32_t> id(count_);
   Real* const mass = component(state, "mass");
+  Real* const volume = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
     set_place(state, i, layout.particles[i]);
     mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
+    volume[i] = static_cast<Real>(layout.volumes[i]);
   }
   up_ = layout.up;
   levels_ = layout.levels;
@@ -257,14 +262,27 @@ void SphSolver<Real>::walls_at(double fraction) {
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(Slot state) {
+  if (accelerates_by_gradients_) find_gradients(state);
   load_walls(state);
   kernels_.momentum[state].launch(count_);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates(Slot state) {
-  if (case_.numerics.density_diffusion == DensityDiffusion::antuono) kernels_.gradient[state].launch(count_);
+  find_gradients(state);
   kernels_.continuity[state].launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::find_rates(Slot state) {
+  find_accelerations(state);
+  if (!accelerates_by_gradients_) find_gradients(state);
+  kernels_.continuity[state].launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::find_gradients(Slot state) {
+  if (gradient_.size() > 0) kernels_.gradients[state].launch(count_);
 }
 
 template <class Real>

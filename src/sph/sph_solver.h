@@ -89,6 +89,7 @@ class SphSolver final : public Solver, private StepEngine {
   void walls_at(double fraction) override;
   void find_accelerations(Slot state) override;
   void find_compression_rates(Slot state) override;
+  void find_rates(Slot state) override;
   void add_wrenches(Slot state, double weight) override;
   void walls_to_end() override;
   void guard() override;
@@ -110,11 +111,12 @@ class SphSolver final : public Solver, private StepEngine {
   void place_walls(const WallMotions& motions);
   void place_barriers();
   void load_walls(Slot state);
+  void find_gradients(Slot state);
   StepReport watch();
   void describe_offender(StepReport& report, int first) const;
 
   struct Kernels {
-    std::map<Slot, BoundSweep> continuity, momentum, gradient, loads;
+    std::map<Slot, BoundSweep> continuity, momentum, gradients, loads;
     BoundSweep packing, surface, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
@@ -148,7 +150,8 @@ class SphSolver final : public Solver, private StepEngine {
   bool moving_frame_ = false;
   bool ghosts_ = false;
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
-  int long_axes_ = 0;      ///< along which a particle's place is known in two parts
+  bool accelerates_by_gradients_ = false;
+  int long_axes_ = 0;  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;
   GridShape grid_shape_;

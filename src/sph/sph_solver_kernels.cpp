@@ -40,7 +40,7 @@ void SphSolver<Real>::bind_sweeps() {
     kernels_.continuity[slot] = make_->over_particles("continuity.cl", "continuity", writes.memory("rates", rates_));
     kernels_.momentum[slot] = make_->over_particles("momentum.cl", "momentum", writes);
     writes = of_state;
-    kernels_.gradient[slot] = make_->over_particles("density_gradient.cl", "density_gradient", writes.memory("gradient", gradient_));
+    kernels_.gradients[slot] = make_->over_particles("gradients.cl", "gradients", writes.memory("gradient", gradient_));
     writes = of_state;
     kernels_.loads[slot] = make_->over_points("wall_loads.cl", "wall_loads", writes.value("count", walls_.count).memory("loads", loads_));
   }

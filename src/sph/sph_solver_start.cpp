@@ -19,14 +19,15 @@ void SphSolver<Real>::set_hydrostatic() {
   const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
   const double g = -case_.gravity.dot(up_);
   Real* const compressions = component(state, "compression");
-  Real* const steady = component(state, "steady");
   for (int i = 0; i < count_; ++i) {
     const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;  // p/(ρ₀c₀²)
     const double compression =
         case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
     compressions[i] = static_cast<Real>(compression);
-    steady[i] = Real(0);
   }
+  for (const FieldRow& row : fields_.rows())
+    if (row.evolution == FieldRow::Evolution::follower)
+      for (const std::string& name : row.components) std::fill_n(component(state, name.c_str()), count_, Real(0));
   state_.upload(state);
 }
 

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "wavetank/scene/methods.h"
+
 /// A case: everything that a simulation is made from, as plain structs in SI units. z is up; a 2-D case lies in the x–z plane (y = 0).
 /// The defaults here are the only place where defaults are stated.
 namespace wavetank {
@@ -211,16 +213,11 @@ struct RobotCase {
   Motion motion = Motion::free;          ///< of the root link: free or fixed
 };
 
-enum class Scheme { delta_sph };
-enum class DensityDiffusion { none, fourtakas, antuono };
-enum class EquationOfState { linear, cole };
-enum class ViscosityModel { monaghan_gingold, morris };
 enum class WallMethod { boundary_integral, ghost };
 enum class ShepardFactor { none, volumetric, monolithic, geometric };
 enum class WallElements { numerical, semi_analytical, facet };
 enum class Slip { no_slip, free_slip };
 enum class Shifting { none };
-enum class Integrator { symplectic, predictor_corrector, runge_kutta_4 };
 enum class Precision { single, double_ };
 /// What the fluid does where its pressure would fall below that of the air, which is not simulated.
 enum class NegativePressure { allowed, clamped };

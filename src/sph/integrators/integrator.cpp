@@ -5,7 +5,7 @@
 namespace wavetank {
 
 std::vector<Access> state_of(const std::string& instant) {
-  return at(instant, {"position", "velocity", "compression", "steady diffusion", "pressure", "volume"});
+  return at(instant, {"position", "velocity", "compression", "followers", "pressure", "volume"});
 }
 
 Stage guard_stage(StepEngine* engine, const std::vector<Access>& came) {

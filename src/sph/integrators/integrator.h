@@ -8,17 +8,19 @@ namespace wavetank {
 /// Where a solver keeps a state of the particles during a step: the one that lasts, and one that is only of this step.
 enum class Slot { now, trial };
 
-/// What a solver can do within a time step Δt: what integrators are made of. `rates` are those of u, s = ρ/ρ₀ − 1 and the steady part of
-/// the density diffusion; x changes by u.
+/// What a solver can do within a time step Δt: what integrators are made of. The rates are those of u, and, as `compression rates`, of
+/// s = ρ/ρ₀ − 1 and all else that evolves; x changes by u.
 class StepEngine {
  public:
   virtual ~StepEngine() = default;
 
   /// Walls as they are expected at a fraction of the step.
   virtual void walls_at(double fraction) = 0;
-  /// Rates of u, with the pressures of wall elements; and of s.
+  /// Rates of u, with the pressures of wall elements; and of s and all else that evolves.
   virtual void find_accelerations(Slot state) = 0;
   virtual void find_compression_rates(Slot state) = 0;
+  /// Both.
+  virtual void find_rates(Slot state) = 0;
   /// Adds the water's wrench on bodies there, times `weight`, to that of the step; the weights of a step add up to 1.
   virtual void add_wrenches(Slot state, double weight) = 0;
   /// Bodies make the step under those wrenches, and walls go with them.

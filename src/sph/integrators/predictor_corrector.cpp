@@ -12,8 +12,7 @@ Schedule predictor_corrector(StepEngine* engine) {
           {{"rates of the start", state_of("now") + at("now", {"walls"}),
             at("now", {"acceleration", "compression rate"}) + at("step", {"wrenches"}),
             [engine] {
-              engine->find_accelerations(Slot::now);
-              engine->find_compression_rates(Slot::now);
+              engine->find_rates(Slot::now);
               engine->add_wrenches(Slot::now, 0.5);
             },
             0, true},
@@ -23,8 +22,7 @@ Schedule predictor_corrector(StepEngine* engine) {
            {"rates of the end", state_of("end") + at("end", {"walls"}) + at("step", {"wrenches"}),
             at("end", {"acceleration", "compression rate", "clearance"}) + at("step", {"wrenches"}),
             [engine] {
-              engine->find_accelerations(Slot::trial);
-              engine->find_compression_rates(Slot::trial);
+              engine->find_rates(Slot::trial);
               engine->add_wrenches(Slot::trial, 0.5);
             },
             1, true},

@@ -11,8 +11,7 @@ Schedule runge_kutta_4(StepEngine* engine) {
                  state_of("trial") + at("trial", {"walls"}),
                  at("trial", {"acceleration", "compression rate", "clearance"}) + at("step", {"wrenches"}),
                  [engine, weight] {
-                   engine->find_accelerations(Slot::trial);
-                   engine->find_compression_rates(Slot::trial);
+                   engine->find_rates(Slot::trial);
                    engine->add_wrenches(Slot::trial, weight);
                  },
                  fraction,
@@ -34,8 +33,7 @@ Schedule runge_kutta_4(StepEngine* engine) {
           {{"rates of the start", state_of("now") + at("now", {"walls"}),
             at("now", {"acceleration", "compression rate"}) + at("step", {"wrenches"}),
             [engine] {
-              engine->find_accelerations(Slot::now);
-              engine->find_compression_rates(Slot::now);
+              engine->find_rates(Slot::now);
               engine->add_wrenches(Slot::now, 1.0 / 6);
             },
             0, true},

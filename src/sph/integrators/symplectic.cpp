@@ -26,8 +26,8 @@ Schedule symplectic(StepEngine* engine) {
            sort_stage(engine),
            {"compression rates", state_of("now") + at("now", {"walls"}), at("now", {"compression rate"}),
             [engine] { engine->find_compression_rates(Slot::now); }, 0, true},
-           {"compressions to the end", at("now", {"compression", "steady diffusion", "compression rate"}),
-            at("now", {"compression", "steady diffusion", "pressure", "volume"}), [engine] { engine->compress_to_end(); }}}};
+           {"compressions to the end", at("now", {"compression", "followers", "compression rate"}),
+            at("now", {"compression", "followers", "pressure", "volume"}), [engine] { engine->compress_to_end(); }}}};
 }
 
 }  // namespace wavetank

@@ -1,6 +1,7 @@
 // Continuity of δ-SPH, eqs (33) and (36) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   ds/dt = −(1+s)/√γ [Σ_j (u_j−u_i)·∇W V_j + Σ_s (u_s−u_i)·n W S] + diffusion/γ,   s = ρ/ρ₀ − 1
-// One pass over the neighbours, the Shepard factor γ included.
+// One pass over the neighbours, the Shepard factor γ included. The scheme (scheme/) says what a pair has for (u_j−u_i)·r, and the density diffusion
+// (density_diffusion/) what it adds.
 //
 // The paper has 1/γ before the bracket and 1 before the diffusion. With it sound gains from every wall that it meets, and water eight rows deep rings by
 // itself: the walls' part of the divergence is not the transpose of that of the pressure's gradient, (p_i + p_s) n W S, and cannot be while both are right
@@ -10,22 +11,25 @@
 // What the diffusion does steadily is taken out of it. At rest the sums of the momentum want some excess of pressure in the uppermost row; the diffusion
 // would carry it downwards, the row sink and be compressed again, and so pump pressure into the whole depth.
 #include "walls.cl"
+#include "pair.cl"
+#include "equation_of_state.cl"
+#include "scheme.cl"
+#include "density_diffusion.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
 typedef struct {
   neighbours_t near;
-#if DIFFUSION_ANTUONO
   __global const real* gradient;
-  tile_vector_t own_gradient;
+  tile u, v, w;
+  scheme_own_t own;
+  tile divergence;
+#if EXCHANGES_MASS
+  tile own_shepard, mass;
 #endif
-  tile u, v, w, compression;
-#if DIFFUSION_FOURTAKAS && MOVING_FRAME
-  tile_vector_t hydrostatic;  // gradient of the compression
-  vector_t spin;
-  real half_inverse;  // ρ/(2K)
+#if DENSITY_DIFFUSION
+  diffusion_t diffusion;
 #endif
-  tile divergence, diffusion;
 #if SHEPARD_VOLUMETRIC
   tile shepard;
 #endif
@@ -37,56 +41,21 @@ typedef struct {
   real divergence, shepard;
 } wall_sweep_t;
 
-#if DIFFUSION_FOURTAKAS
-// The difference in compression that hydrostatics explains, linearised.
-INLINE tile explained_difference(const sweep_t* a, __constant const parameters_t* p, tile_vector_t relative, tile rx, tile ry, tile rz) {
-#if MOVING_FRAME
-  // by the mean of gravity at either end, so that what one gains the other loses: centrifugal and Coriolis' forces differ between them
-  const tile_vector_t apart = make_tile_vector(rx, ry, rz);
-  const tile_vector_t around = tile_cross(a->spin, apart);
-  const tile_vector_t carried = tile_cross(a->spin, relative);
-  return tile_dot(a->hydrostatic, apart) + a->half_inverse * (tile_dot(around, around) - R(2.0) * tile_dot(carried, apart));
-#elif DIMENSIONS == 3
-  return p->hydrostatic_x * rx + p->hydrostatic_y * ry + p->hydrostatic_z * rz;
-#else
-  return p->hydrostatic_x * rx + p->hydrostatic_z * rz;
-#endif
-}
-#endif
-
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
   const tile volume = near_volume(&a->near, j);
   const tile distance = sqrt(r2);
   const tile slope_volume = kernel_slopes(p, distance) * volume;
-  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
-  const tile_vector_t relative = make_tile_vector(velocity.x - a->u, DIMENSIONS == 3 ? velocity.y - a->v : (tile)(R(0.0)), velocity.z - a->w);
-  tile approach = relative.x * rx + relative.z * rz;
-#if DIMENSIONS == 3
-  approach += relative.y * ry;
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, slope_volume, a->u, a->v, a->w);
+  const exchange_t exchange = pair_exchange(&a->own, p, &a->near, a->gradient, &pair);
+  a->divergence += exchange.divergence * slope_volume;
+#if EXCHANGES_MASS
+  a->mass += exchange.mass * slope_volume * shared_shepard(&a->near, a->gradient, a->own_shepard, j);
 #endif
-  a->divergence += approach * slope_volume;
 #if SHEPARD_VOLUMETRIC
   a->shepard += kernel_values(p, distance) * volume;
 #endif
-
-#if DIFFUSION_FOURTAKAS || DIFFUSION_ANTUONO
-  const tile difference = neighbour_compression(&a->near, p, j, rx, ry, rz) - a->compression;
-#endif
-#if DIFFUSION_FOURTAKAS
-  // of the dynamic density only: what hydrostatics explains is not diffused; twice this, once all is summed
-  a->diffusion += slope_volume * (difference - explained_difference(a, p, relative, rx, ry, rz));
-#elif DIFFUSION_ANTUONO
-  const long stride = a->near.stride;
-  tile_vector_t gradient = make_tile_vector(near_values(a->gradient, j), DIMENSIONS == 3 ? near_values(a->gradient + stride, j) : (tile)(R(0.0)),
-                                            near_values(a->gradient + 2 * stride, j));
-#if GHOSTS
-  if (a->near.mirrored) gradient = turned(a->near.image + IMAGE_MATRIX, gradient.x, gradient.y, gradient.z);
-#endif
-  tile explained = (a->own_gradient.x + gradient.x) * rx + (a->own_gradient.z + gradient.z) * rz;
-#if DIMENSIONS == 3
-  explained += (a->own_gradient.y + gradient.y) * ry;
-#endif
-  a->diffusion += slope_volume * (difference - R(0.5) * explained);
+#if DENSITY_DIFFUSION
+  add_diffusion(&a->diffusion, p, &a->near, a->gradient, &pair);
 #endif
 }
 
@@ -101,6 +70,17 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 
 #include "sweep.cl"
 
+// Volumes follow the velocity that the particle moves with, where the scheme lets that be another than the water's.
+INLINE vector_t motion_of(__global const real* state, long stride, int i) {
+  vector_t own = velocity_of(state, stride, i);
+#if EXCHANGES_MASS && defined(FIELD_SHIFT_X)
+  own.x += state[FIELD_SHIFT_X * stride + i];
+  own.y += DIMENSIONS == 3 ? state[FIELD_SHIFT_Y * stride + i] : R(0.0);
+  own.z += state[FIELD_SHIFT_Z * stride + i];
+#endif
+  return own;
+}
+
 __kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
                          real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
@@ -108,31 +88,28 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
-#if DIFFUSION_ANTUONO
   a.gradient = gradient;
-  a.own_gradient = make_tile_vector(own_values(gradient, first), own_values(gradient + stride, first), own_values(gradient + 2 * stride, first));
-#endif
   a.u = own_values(state + FIELD_U * stride, first);
   a.v = own_values(state + FIELD_V * stride, first);
   a.w = own_values(state + FIELD_W * stride, first);
-  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
-#if DIFFUSION_FOURTAKAS && MOVING_FRAME
-  const real inverse = p->density / p->bulk_modulus;
-  places_t hydrostatic;
-  for (int k = 0; k < TILE_OWN; ++k) {
-    const vector_t gravity = gravity_at(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k], velocity_of(state, stride, first + k));
-    hydrostatic.x[k] = gravity.x * inverse;
-    hydrostatic.y[k] = gravity.y * inverse;
-    hydrostatic.z[k] = gravity.z * inverse;
-  }
-  a.hydrostatic = make_tile_vector(spread_own(hydrostatic.x), spread_own(hydrostatic.y), spread_own(hydrostatic.z));
-  a.spin = motion_vector(walls.motions, 1);
-  a.half_inverse = R(0.5) * inverse;
+  a.own = scheme_own(&a.near, gradient, first);
+#if EXCHANGES_MASS
+  a.own_shepard = own_values(gradient + GRADIENT_SHEPARD * stride, first);
+#endif
+#if DENSITY_DIFFUSION
+  start_diffusion(&a.diffusion, p, &a.near, gradient, first);
 #endif
   sweep_particles(&a, p, slot_start, images);
-  real divergence[TILE_OWN], diffusion[TILE_OWN];
+  real divergence[TILE_OWN];
   own_sums(a.divergence, divergence);
-  own_sums(a.diffusion, diffusion);
+#if EXCHANGES_MASS
+  real mass[TILE_OWN];
+  own_sums(a.mass, mass);
+#endif
+#if DENSITY_DIFFUSION
+  real diffusion[TILE_OWN];
+  own_sums(a.diffusion.sum, diffusion);
+#endif
 #if SHEPARD_VOLUMETRIC
   real shepard[TILE_OWN];
   own_sums(a.shepard, shepard);
@@ -141,7 +118,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   for (int k = 0; k < TILE_OWN; ++k) {
     const int i = first + k;
     if (i >= count) return;
-    const vector_t own = velocity_of(state, stride, i);
+    const vector_t own = motion_of(state, stride, i);
 #if SHEPARD_VOLUMETRIC
     wall_sweep_t b = {&walls, own.x, own.y, own.z, p->slope_scale * divergence[k], shepard[k]};
 #else
@@ -152,16 +129,19 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
-    // Antuono's diffusion hardly sees the slowest sound, and needs more
-#if RENORMALISE_DIVERGENCE && !DIFFUSION_ANTUONO
-    const real renormalise = rsqrt(bounded_shepard(b.shepard));
-#else
-    const real renormalise = R(1.0);
-#endif
+    const real renormalise = RENORMALISE_DIVERGENCE && DIVERGENCE_RENORMALISED ? rsqrt(bounded_shepard(b.shepard)) : R(1.0);
+#if DENSITY_DIFFUSION
     const real spread = renormalise * renormalise * R(2.0) * p->density_diffusion * p->slope_scale * diffusion[k];
     const real steady = state[FIELD_STEADY * stride + i];
     rates[RATE_COMPRESSION * stride + i] = spread - steady - renormalise * (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence;
     rates[RATE_STEADY * stride + i] = p->steady_rate * (clamp(spread, -p->steady_limit, p->steady_limit) - steady);
+#else
+    rates[RATE_COMPRESSION * stride + i] = -renormalise * (R(1.0) + state[FIELD_COMPRESSION * stride + i]) * b.divergence;
+#endif
+#if EXCHANGES_MASS
+    rates[RATE_COMPRESSION * stride + i] -= p->slope_scale * mass[k] / p->density;
+    rates[RATE_VOLUME * stride + i] = state[FIELD_VOLUME * stride + i] * renormalise * b.divergence;
+#endif
     rates[RATE_SHEPARD * stride + i] = b.shepard;
   }
 }

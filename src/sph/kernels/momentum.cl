@@ -1,14 +1,15 @@
-// The accelerations: momentum of δ-SPH by the sums of momentum_sums.cl, and what the guard asks about walls.
+// The accelerations: momentum by the sums of momentum_sums.cl, and what the guard asks about walls.
 #define WALL_FORCES 0
 #include "momentum_sums.cl"
 
 __kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                       WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, __global real* rates) {
+                       WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const real* wall_loads, __global const real* film,
+                       __global real* rates) {
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
-  start_sums(&a, p, first, count, state, stride, reach, &walls);
+  start_sums(&a, p, first, count, state, stride, reach, &walls, gradient);
 #if NEEDS_FIT
   bool near = false;
   for (int k = 0; k < a.near.own; ++k) near = near || near_walls(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
@@ -42,6 +43,12 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
     rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
     rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);
     rates[RATE_W * stride + i] = (b.viscous_z - b.force_z) * per_mass + b.gravity.z;
+#if CARRIES_MOMENTUM
+    const real carries = p->slope_scale / b.density;
+    rates[RATE_U * stride + i] -= carries * sums.carried.x[k];
+    if (DIMENSIONS == 3) rates[RATE_V * stride + i] -= carries * sums.carried.y[k];
+    rates[RATE_W * stride + i] -= carries * sums.carried.z[k];
+#endif
     rates[RATE_CLEARANCE * stride + i] = b.clearance;
   }
 }

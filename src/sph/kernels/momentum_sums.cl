@@ -1,5 +1,6 @@
-// Momentum of δ-SPH, eqs (35, its sign corrected) and (37) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
+// Momentum, eqs (35, its sign corrected) and (37) of the particle shifting paper, with the wall's share of the geometric Shepard paper:
 //   du/dt = −1/(γ ρ_i) [Σ_j (p_i+p_j) ∇W V_j + Σ_s (p_i+p_s) n W S − viscosity] + g
+// The scheme (scheme/) says what a pair has for p_i + p_j, and the viscosity (viscosity/) what it adds.
 // One pass over the neighbours, the Shepard factor γ included. On elements the wall's pressure p_s is the one found at their centre; facets have no
 // place for it, so there it is the plane fitted about the particle itself, p̂ + ∇p̂·(y − x_i), with what hydrostatics explains added by gravity less the wall's
 // acceleration: ∫ p W dS = p̂ ∫ W dS + [∇p̂ + ρ_i (g − a)]·∫ (y − x_i) W dS. Not p_i itself: in 3-D tanks at rest that lets pressures oscillate until they
@@ -8,14 +9,22 @@
 #include "walls.cl"
 #include "film.cl"
 #include "linear_fit.cl"
+#include "pair.cl"
+#include "equation_of_state.cl"
+#include "scheme.cl"
+#include "viscosity.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 #define NEAR_OWNERS (FACING_OWNERS + 2)
+// what one particle gives another walls have no part in
+#define CARRIES_MOMENTUM (EXCHANGES_MASS && !WALL_FORCES)
 #define NEEDS_FIT (FACETS || THIN_WALLS)
 
 typedef struct {
   neighbours_t near;
-  tile u, v, w, pressure;
+  __global const real* gradient;
+  tile u, v, w;
+  scheme_own_t own;
 #if NEEDS_FIT
   bool fitting;  // there are walls to fit a plane for
   tile_fit_t fit;
@@ -27,8 +36,12 @@ typedef struct {
 #if WALL_FORCES && THIN_WALLS
   tile across_x, across_y, across_z;  // of that the part of neighbours that the watched owner's thin walls hide: it goes through them, who have it
 #endif
-#if WALL_FORCES || VISCOSITY_MORRIS
+#if WALL_FORCES || VISCOSITY_SHEARS
   tile viscous_x, viscous_y, viscous_z;
+#endif
+#if CARRIES_MOMENTUM
+  tile own_shepard;
+  tile carried_x, carried_y, carried_z;  // what the mass that is exchanged brings, by the mean of both ends' γ
 #endif
 #if SHEPARD_VOLUMETRIC
   tile shepard;
@@ -67,9 +80,9 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #if SHEPARD_VOLUMETRIC
   a->shepard += kernel_values(p, distance) * volume;
 #endif
-  const tile pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
 #if NEEDS_FIT
   if (a->fitting) {
+    const tile pressure = neighbour_pressure(&a->near, p, j, rx, ry, rz);
 #if MOVING_FRAME
     const tile head = tile_dot(a->gravity, make_tile_vector(rx, ry, rz));
 #elif DIMENSIONS == 3
@@ -80,39 +93,39 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
     add_to_fit(&a->fit, kernel_values(p, distance) * volume, pressure - p->density * head, rx, ry, rz);
   }
 #endif
-  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
-  const tile du = velocity.x - a->u;
-  const tile dw = velocity.z - a->w;
-#if DIMENSIONS == 3
-  const tile dv = velocity.y - a->v;
-  const tile approach = du * rx + dv * ry + dw * rz;
-#else
-  const tile approach = du * rx + dw * rz;
-#endif
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, slope_volume, a->u, a->v, a->w);
+  const exchange_t exchange = pair_exchange(&a->own, p, &a->near, a->gradient, &pair);
   // only against a division by zero: the 0.01 h² of the papers makes the viscosity 2 to 5 % too small
   const tile inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);
-#if VISCOSITY_MORRIS
-  // isotropic for the physical viscosity (MLS paper, eq 14); the artificial one acts along the line of centres all the same
-  const tile shear = R(2.0) * p->viscosity * slope_volume;
-  a->viscous_x += shear * du;
-  a->viscous_z += shear * dw;
+#if VISCOSITY_SHEARS
+  const tile shear = pair_shear(p, &pair);
+  a->viscous_x += shear * pair.relative.x;
+  a->viscous_z += shear * pair.relative.z;
 #if DIMENSIONS == 3
-  a->viscous_y += shear * dv;
+  a->viscous_y += shear * pair.relative.y;
 #endif
 #endif
 #if WALL_FORCES
-  const tile friction = slope_volume * p->pair_viscosity * approach * inverse;
+  const tile friction = slope_volume * p->pair_viscosity * pair.approach * inverse;
   a->viscous_x += friction * rx;
   a->viscous_y += friction * ry;
   a->viscous_z += friction * rz;
-  const tile central = slope_volume * (a->pressure + pressure);
+  const tile central = slope_volume * exchange.pressure;
 #else
-  const tile central = slope_volume * (a->pressure + pressure - p->pair_viscosity * approach * inverse);
+  const tile central = slope_volume * (exchange.pressure - p->pair_viscosity * pair.approach * inverse);
 #endif
   a->force_x += central * rx;
   a->force_z += central * rz;
 #if DIMENSIONS == 3
   a->force_y += central * ry;
+#endif
+#if CARRIES_MOMENTUM
+  const tile mass = slope_volume * exchange.mass * shared_shepard(&a->near, a->gradient, a->own_shepard, j);
+  a->carried_x += mass * exchange.carried.x;
+  a->carried_z += mass * exchange.carried.z;
+#if DIMENSIONS == 3
+  a->carried_y += mass * exchange.carried.y;
+#endif
 #endif
 #if WALL_FORCES && THIN_WALLS
   const tile across = a->near.through * central;
@@ -145,12 +158,6 @@ INLINE real fitted_push(const wall_sweep_t* a, __constant const parameters_t* p,
   const vector_t slope = make_vector(plane.slope_x + a->density * gravity.x, plane.slope_y + a->density * gravity.y, plane.slope_z + a->density * gravity.z);
   return (a->pressure + plane.value) * c->weight + dot3(slope, c->moment);
 }
-#endif
-
-#if VISCOSITY_MORRIS
-#define WALL_DRAG R(1.0)
-#else
-#define WALL_DRAG ((DIMENSIONS + R(2.0)) / (DIMENSIONS + R(1.0)))
 #endif
 
 #if WALL_FORCES
@@ -259,12 +266,16 @@ INLINE bool near_walls(__constant const parameters_t* p, const walls_t* walls, r
 
 // The sums of the tile that begins with particle `first`.
 INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, int end, __global const real* state, long stride, real reach,
-                       const walls_t* walls) {
+                       const walls_t* walls, __global const real* gradient) {
   neighbours_of(&a->near, state, stride, reach, walls, first, end);
   a->u = own_values(state + FIELD_U * stride, first);
   a->v = own_values(state + FIELD_V * stride, first);
   a->w = own_values(state + FIELD_W * stride, first);
-  a->pressure = own_values(state + FIELD_PRESSURE * stride, first);
+  a->gradient = gradient;
+  a->own = scheme_own(&a->near, gradient, first);
+#if CARRIES_MOMENTUM
+  a->own_shepard = own_values(gradient + GRADIENT_SHEPARD * stride, first);
+#endif
 #if NEEDS_FIT
   a->fitting = true;
 #if MOVING_FRAME
@@ -304,8 +315,11 @@ typedef struct {
 #if WALL_FORCES && THIN_WALLS
   places_t across;
 #endif
-#if WALL_FORCES || VISCOSITY_MORRIS
+#if WALL_FORCES || VISCOSITY_SHEARS
   places_t viscous;
+#endif
+#if CARRIES_MOMENTUM
+  places_t carried;
 #endif
 #if SHEPARD_VOLUMETRIC
   real shepard[TILE_OWN];
@@ -325,10 +339,15 @@ INLINE void finish_particles(const sweep_t* a, pair_sums_t* s) {
   own_sums(a->across_y, s->across.y);
   own_sums(a->across_z, s->across.z);
 #endif
-#if WALL_FORCES || VISCOSITY_MORRIS
+#if WALL_FORCES || VISCOSITY_SHEARS
   own_sums(a->viscous_x, s->viscous.x);
   own_sums(a->viscous_y, s->viscous.y);
   own_sums(a->viscous_z, s->viscous.z);
+#endif
+#if CARRIES_MOMENTUM
+  own_sums(a->carried_x, s->carried.x);
+  own_sums(a->carried_y, s->carried.y);
+  own_sums(a->carried_z, s->carried.z);
 #endif
 #if SHEPARD_VOLUMETRIC
   own_sums(a->shepard, s->shepard);
@@ -343,7 +362,7 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
   b->force_x = p->slope_scale * s->force.x[k];
   b->force_y = p->slope_scale * s->force.y[k];
   b->force_z = p->slope_scale * s->force.z[k];
-#if WALL_FORCES || VISCOSITY_MORRIS
+#if WALL_FORCES || VISCOSITY_SHEARS
   b->viscous_x = p->slope_scale * s->viscous.x[k];
   b->viscous_y = p->slope_scale * s->viscous.y[k];
   b->viscous_z = p->slope_scale * s->viscous.z[k];

@@ -1,6 +1,7 @@
 // Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, as many chunks of those while there are more than that, and
 // the last ones' results by one. Built without fast-math, and non-finite values are found by their bits all the same.
 #include "common.cl"
+#include "equation_of_state.cl"
 
 #define REDUCE_CHUNK 256
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
@@ -106,21 +107,8 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
 #define ENERGY_COUNT 7
 
-// ∫ p/ρ² dρ/c₀² from rest to the compression s: what a unit of mass stores. Water whose tension is taken away stores none.
-INLINE real stored_energy(real s) {
-#if CLAMP_PRESSURE
-  s = fmax(s, R(0.0));
-#endif
-  const bool small = fabs(s) < R(0.03);  // there the closed form is a small difference of large terms
-#if COLE
-  const real r = R(1.0) + s;
-  const real series = s * s * (R(0.5) + s * (R(0.333333333333) + R(0.5) * s));
-  return small ? series : ((r * r * r * r * r * r - R(1.0)) / R(6.0) - s / r) / R(7.0);
-#else
-  const real series = s * s * (R(0.5) + s * (R(-0.666666666667) + s * (R(0.75) + s * (R(-0.8) + s * R(0.833333333333)))));
-  return small ? series : log(fmax(R(1.0) + s, R(1.0e-6))) - s / (R(1.0) + s);
-#endif
-}
+// Water whose tension is taken away stores none.
+INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }
 
 INLINE void add_compensated(real value, real* sum, real* rest) {
   const real wanted = value - *rest;

@@ -1,21 +1,20 @@
 // Advancing the state. Built without fast-math: it would delete the compensated sum of the positions.
 #include "common.cl"
+#include "equation_of_state.cl"
 
-// Equation of state, and what the neighbour loop needs beside it.
-INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real compression, real mass) {
-#if COLE
-  const real ratio = R(1.0) + compression;
-  const real cubed = ratio * ratio * ratio;
-  real pressure = p->bulk_modulus / R(7.0) * (cubed * cubed * ratio - R(1.0));
+EQUATION_OF_STATE(real, particle)
+
+// What follows from the fields that evolve, and what the neighbour loop needs beside them. A particle keeps its mass, or else, where the scheme has a rate
+// of the volume, what its compression and volume make of it.
+INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real mass) {
+  const real compression = state[FIELD_COMPRESSION * stride + i];
+  const real pressure = particle_pressure(p, compression);
+  state[FIELD_PRESSURE * stride + i] = CLAMP_PRESSURE ? fmax(pressure, R(0.0)) : pressure;
+#ifdef RATE_VOLUME
+  state[FIELD_MASS * stride + i] = p->density * (R(1.0) + compression) * state[FIELD_VOLUME * stride + i];
 #else
-  real pressure = p->bulk_modulus * compression;
-#endif
-#if CLAMP_PRESSURE
-  pressure = fmax(pressure, R(0.0));
-#endif
-  state[FIELD_COMPRESSION * stride + i] = compression;
-  state[FIELD_PRESSURE * stride + i] = pressure;
   state[FIELD_VOLUME * stride + i] = mass / (p->density * (R(1.0) + compression));
+#endif
 }
 
 INLINE bool is_lost(__global const real* state, long stride, int i) {
@@ -38,7 +37,7 @@ INLINE void leave_out(__global real* half_state, long stride, int i) {
 
 __kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, long stride) {
   const int i = get_global_id(0);
-  if (i < count) derive(p, state, stride, i, state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
+  if (i < count) derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
 }
 
 // Symplectic (drift, kick, drift): positions and compressions go half a step with what they had, velocities a whole one with the forces of the middle,
@@ -55,8 +54,9 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
     if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * speed);
     half_state[(FIELD_U + axis) * stride + i] = speed;
   }
-  const real compression = state[FIELD_COMPRESSION * stride + i] + half_step * rates[RATE_COMPRESSION * stride + i];
-  derive(p, half_state, stride, i, compression, state[FIELD_MASS * stride + i]);
+#define DRIFT(NAME) half_state[FIELD_##NAME * stride + i] = state[FIELD_##NAME * stride + i] + half_step * rates[RATE_##NAME * stride + i];
+  EACH_CONJUGATE(DRIFT)
+  derive(p, half_state, stride, i, state[FIELD_MASS * stride + i]);
   if (is_lost(half_state, stride, i)) leave_out(half_state, stride, i);
 }
 
@@ -98,28 +98,34 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
   }
   wrap(p, state, stride, i);
   if (not_finite(half_state[FIELD_COMPRESSION * stride + i])) state[FIELD_U * stride + i] = half_state[FIELD_COMPRESSION * stride + i];  // lost in all
-  derive(p, state, stride, i, half_state[FIELD_COMPRESSION * stride + i], state[FIELD_MASS * stride + i]);
+#define TAKE(NAME) state[FIELD_##NAME * stride + i] = half_state[FIELD_##NAME * stride + i];
+  EACH_CONJUGATE(TAKE)
+  derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
 }
 
-// The second drift of the compressions, and a step of the diffusion's steady part.
+// The second drift of the compressions, and a step of what follows them.
 __kernel void compress(__constant const parameters_t* p, int count, __global real* state, long stride, __global const real* rates,
                        __global const real* time_step) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const real compression = state[FIELD_COMPRESSION * stride + i] + R(0.5) * time_step[0] * rates[RATE_COMPRESSION * stride + i];
-  state[FIELD_STEADY * stride + i] += time_step[0] * rates[RATE_STEADY * stride + i];
-  derive(p, state, stride, i, compression, state[FIELD_MASS * stride + i]);
+#define DRIFT_ON(NAME) state[FIELD_##NAME * stride + i] += R(0.5) * time_step[0] * rates[RATE_##NAME * stride + i];
+  EACH_CONJUGATE(DRIFT_ON)
+#define FOLLOW(NAME) state[FIELD_##NAME * stride + i] += time_step[0] * rates[RATE_##NAME * stride + i];
+  EACH_FOLLOWER(FOLLOW)
+  derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
 }
 
 // Runge and Kutta's, and the predictor and corrector: a sum of weighted rates of several states.
 
-// Trial state: positions and velocities of a particle are set already.
-INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, long stride, int i, real compression, real steady) {
-  trial[FIELD_STEADY * stride + i] = steady;
-  derive(p, trial, stride, i, compression, now[FIELD_MASS * stride + i]);
+#define EACH_EVOLVED(DO) EACH_CONJUGATE(DO) EACH_FOLLOWER(DO)
+
+// Trial state: positions, velocities and what else evolves of a particle are set already.
+INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, long stride, int i) {
+  derive(p, trial, stride, i, now[FIELD_MASS * stride + i]);
   if (!is_lost(trial, stride, i)) return;
+#define NOTHING(NAME) trial[FIELD_##NAME * stride + i] = R(0.0);
+  EACH_EVOLVED(NOTHING)
   leave_out(trial, stride, i);  // the sums have what was lost
-  trial[FIELD_COMPRESSION * stride + i] = trial[FIELD_STEADY * stride + i] = R(0.0);
 }
 
 // sum (+)= weight rates, of the trial state or, first, of that which is now; trial = now + part Δt rates.
@@ -140,21 +146,19 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
     if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * speed);
     trial[(FIELD_U + axis) * stride + i] = now[(FIELD_U + axis) * stride + i] + step * acceleration;
   }
-  const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
-  __global real* sum_s = sum + SUM_COMPRESSION * stride + i;
-  __global real* sum_d = sum + SUM_STEADY * stride + i;
-  *sum_s = (first ? R(0.0) : *sum_s) + weight * compression;
-  *sum_d = (first ? R(0.0) : *sum_d) + weight * steady;
-  finish_trial(p, now, trial, stride, i, now[FIELD_COMPRESSION * stride + i] + step * compression, now[FIELD_STEADY * stride + i] + step * steady);
+#define GO_ON(NAME)                                                                                                                           \
+  sum[SUM_##NAME * stride + i] = (first ? R(0.0) : sum[SUM_##NAME * stride + i]) + weight * rates[RATE_##NAME * stride + i];                  \
+  trial[FIELD_##NAME * stride + i] = now[FIELD_##NAME * stride + i] + step * rates[RATE_##NAME * stride + i];
+  EACH_EVOLVED(GO_ON)
+  finish_trial(p, now, trial, stride, i);
 }
 
-// The rest of a step that began at the given place: compression and steady part by the sum and the weighted rates of the trial state, and what the guard and
-// the next step need. What was found of the walls' distance at the trial state's place counts from the start.
+// The rest of a step that began at the given place: what evolves by the sum and the weighted rates of the trial state, and what the guard and the next step
+// need. What was found of the walls' distance at the trial state's place counts from the start.
 INLINE void end_step(__constant const parameters_t* p, __global real* now, __global real* trial, long stride, int i, __global real* rates, const real* start,
                      real step, __global const real* sum, real weight) {
-  const real compression =
-      now[FIELD_COMPRESSION * stride + i] + step * (sum[SUM_COMPRESSION * stride + i] + weight * rates[RATE_COMPRESSION * stride + i]);
-  const real steady = now[FIELD_STEADY * stride + i] + step * (sum[SUM_STEADY * stride + i] + weight * rates[RATE_STEADY * stride + i]);
+#define END(NAME) now[FIELD_##NAME * stride + i] += step * (sum[SUM_##NAME * stride + i] + weight * rates[RATE_##NAME * stride + i]);
+  EACH_EVOLVED(END)
   real way = R(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const real back = trial[(FIELD_X + axis) * stride + i] - start[axis];
@@ -164,9 +168,8 @@ INLINE void end_step(__constant const parameters_t* p, __global real* now, __glo
   }
   rates[RATE_CLEARANCE * stride + i] -= sqrt(way);
   wrap(p, now, stride, i);
-  if (not_finite(compression)) now[FIELD_U * stride + i] = compression;  // lost in all
-  now[FIELD_STEADY * stride + i] = steady;
-  derive(p, now, stride, i, compression, now[FIELD_MASS * stride + i]);
+  if (not_finite(now[FIELD_COMPRESSION * stride + i])) now[FIELD_U * stride + i] = now[FIELD_COMPRESSION * stride + i];  // lost in all
+  derive(p, now, stride, i, now[FIELD_MASS * stride + i]);
 }
 
 // now += Δt (sum + weight rates), of the trial state.
@@ -200,10 +203,11 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * (speed + step * acceleration);
     if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * (speed + step * acceleration));
   }
-  const real compression = rates[RATE_COMPRESSION * stride + i], steady = rates[RATE_STEADY * stride + i];
-  sum[SUM_COMPRESSION * stride + i] = R(0.5) * compression;
-  sum[SUM_STEADY * stride + i] = R(0.5) * steady;
-  finish_trial(p, now, trial, stride, i, now[FIELD_COMPRESSION * stride + i] + step * compression, now[FIELD_STEADY * stride + i] + step * steady);
+#define PREDICT(NAME)                                                          \
+  sum[SUM_##NAME * stride + i] = R(0.5) * rates[RATE_##NAME * stride + i];     \
+  trial[FIELD_##NAME * stride + i] = now[FIELD_##NAME * stride + i] + step * rates[RATE_##NAME * stride + i];
+  EACH_EVOLVED(PREDICT)
+  finish_trial(p, now, trial, stride, i);
 }
 
 // now: u += Δt (sum + f**/2), s likewise, x += Δt (u before + u after)/2.

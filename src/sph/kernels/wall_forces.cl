@@ -90,7 +90,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
 
 // Per run of slots of an owner's region: Σ of pressure force, viscous force and their torques about the owner's centre.
 __kernel void wall_forces(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                          WALL_ARGUMENTS, __global const real* images, __global const real* wall_loads, __global const real* film, int regions,
+                          WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const real* wall_loads, __global const real* film, int regions,
                           __global const int* region_values, __global real* wrenches) {
   const int item = get_global_id(0);
   if (item >= count) return;
@@ -122,7 +122,7 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     }
     if (!any) continue;
     sweep_t a = {0};
-    start_sums(&a, p, first, end, state, stride, reach, &walls);
+    start_sums(&a, p, first, end, state, stride, reach, &walls, gradient);
 #if THIN_WALLS
     a.near.watched = owner;
 #endif

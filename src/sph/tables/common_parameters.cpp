@@ -15,13 +15,6 @@ double kernel_scale(const Discretisation& d) {
   return d.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
 }
 
-double pair_viscosity(const Source& s) {
-  const Discretisation& d = s.discretisation;
-  const NumericsCase& n = s.scene.numerics;
-  const double physical = n.viscosity_model == ViscosityModel::monaghan_gingold ? 2.0 * (d.dimensions + 2) * s.scene.fluid.viscosity : 0.0;
-  return n.artificial_viscosity * d.smoothing_length * d.sound_speed * s.scene.fluid.density + physical;
-}
-
 double rim(const Source& s) {
   const Discretisation& d = s.discretisation;
   return d.splash_guard ? d.top.way * (d.rim - d.origin[d.top.axis]) : everywhere;
@@ -64,20 +57,6 @@ std::vector<ParameterRow> make_rows() {
          return s.scene.fluid.density * c * c;
        }},
       {"sound_speed", "m/s", "c₀", [](const Source& s) { return s.discretisation.sound_speed; }},
-      {"viscosity", "Pa s", "μ, of the wall's shear", [](const Source& s) { return s.scene.fluid.viscosity; }},
-      {"pair_viscosity", "Pa s", "α h c₀ ρ₀ + 2(d+2) μ: artificial and Monaghan–Gingold viscosity have one form", pair_viscosity},
-      {"density_diffusion", "m²/s", "δ h c₀",
-       [](const Source& s) {
-         return s.scene.numerics.density_diffusion_coefficient * s.discretisation.smoothing_length * s.discretisation.sound_speed;
-       }},
-      {"steady_rate", "1/s", "by which the steady part of the diffusion follows it",
-       [](const Source& s) { return s.scene.gravity.norm() / s.discretisation.sound_speed; }},
-      {"steady_limit", "1/s", "of that part",
-       [](const Source& s) {
-         const Discretisation& d = s.discretisation;
-         return 1.5 * s.scene.numerics.density_diffusion_coefficient * s.scene.gravity.norm() * d.spacing /
-                (d.smoothing_length * d.sound_speed);
-       }},
       {"guard_distance", "m", "nearer to a wall, a particle loses its approaching normal velocity",
        [](const Source& s) { return s.scene.numerics.walls.guard_distance * s.discretisation.spacing; }},
       {"courant", "", "of h/(c₀ + |u|)", [](const Source& s) { return s.scene.numerics.courant; }},

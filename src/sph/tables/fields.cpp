@@ -17,9 +17,22 @@ std::string upper(std::string name) {
   return name;
 }
 
+std::vector<FieldRow> with_rates(std::vector<FieldRow> rows) {
+  const std::size_t given = rows.size();
+  for (std::size_t k = 0; k < given; ++k) {
+    const FieldRow of = rows[k];
+    if (of.evolution == FieldRow::Evolution::none) continue;
+    const std::string unit = of.unit.empty() ? "1/s" : of.unit == "1/s" ? "1/s²" : of.unit + "/s";
+    // a step may begin with the rates of the last one's end
+    rows.push_back({ParticleArray::rates, of.components, unit, "of change", of.evolution == FieldRow::Evolution::conjugate});
+    rows.push_back({ParticleArray::sums, of.components, unit, "of weighted rates of change"});
+  }
+  return rows;
+}
+
 }  // namespace
 
-FieldTable::FieldTable(std::vector<FieldRow> rows) : rows_(std::move(rows)) {
+FieldTable::FieldTable(std::vector<FieldRow> rows) : rows_(with_rates(std::move(rows))) {
   for (const FieldRow& row : rows_)
     for (const std::string& component : row.components) {
       std::vector<std::string>& names = names_[static_cast<int>(row.array)];
@@ -28,6 +41,11 @@ FieldTable::FieldTable(std::vector<FieldRow> rows) : rows_(std::move(rows)) {
                     "\"");
       names.push_back(component);
     }
+}
+
+bool FieldTable::has(ParticleArray array, const std::string& component) const {
+  const std::vector<std::string>& all = names(array);
+  return std::find(all.begin(), all.end(), component) != all.end();
 }
 
 int FieldTable::at(ParticleArray array, const std::string& component) const {
@@ -50,6 +68,14 @@ std::string FieldTable::header() const {
     }
     text += "#define " + std::string(device_prefixes[array]) + "COUNT " + std::to_string(place) + "\n";
   }
+  for (const auto& [evolution, name] :
+       {std::pair(FieldRow::Evolution::conjugate, "CONJUGATE"), {FieldRow::Evolution::follower, "FOLLOWER"}}) {
+    text += std::string("#define EACH_") + name + "(DO)";
+    for (const FieldRow& row : rows_)
+      if (row.evolution == evolution)
+        for (const std::string& component : row.components) text += " DO(" + upper(component) + ")";
+    text += "\n";
+  }
   return text;
 }
 
@@ -58,21 +84,16 @@ const std::vector<FieldRow>& common_fields() {
   static const std::vector<FieldRow> rows{
       {state, {"x", "y", "z"}, "m", "position, from the grid's origin", true},
       {state, {"u", "v", "w"}, "m/s", "velocity", true},
-      {state, {"compression"}, "", "ρ/ρ₀ − 1", true},
+      {state, {"compression"}, "", "ρ/ρ₀ − 1", true, FieldRow::Evolution::conjugate},
       {state, {"pressure"}, "Pa", "gauge pressure", true},
       {state, {"volume"}, "m³", "m/ρ", true},
       {state, {"mass"}, "kg", "mass", true},
       {state, {"rest_x", "rest_y", "rest_z"}, "m", "what rounding took from the position so far (compensated sum)", true},
-      {state, {"steady"}, "1/s", "steady part of the density diffusion", true},
       {rates, {"u", "v", "w"}, "m/s²", "acceleration"},
-      {rates, {"compression"}, "1/s", "ds/dt", true},  // a step may begin with that of the last one's end
       {rates, {"shepard"}, "", "γ"},
       {rates, {"clearance"}, "m", "distance to the nearest wall element, at the least"},
-      {rates, {"steady"}, "1/s²", "of the steady part of the density diffusion"},
       {sums, {"x", "y", "z"}, "m/s", "of weighted velocities"},
       {sums, {"u", "v", "w"}, "m/s²", "of weighted accelerations"},
-      {sums, {"compression"}, "1/s", "of weighted ds/dt"},
-      {sums, {"steady"}, "1/s²", "of weighted rates of the steady part"},
   };
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "../integrators/integrator.h"
+#include "../methods/method.h"
 #include "fields.h"
 #include "parameters.h"
 #include "reports.h"
@@ -12,16 +13,20 @@
 
 namespace wavetank {
 
-/// What a solver is made of beside its kernels: features add rows of their own.
+/// What a solver is made of beside its kernels. The methods that a case chooses bring rows of their own.
 struct SolverRows {
   std::vector<FieldRow> fields = common_fields();
   std::vector<ParameterRow> parameters = common_parameters();
   std::vector<ReportRow> reports = common_reports();
+  std::function<Methods(const Case&)> methods = methods_of;
   /// The steps of a case; `engine` may be null where they are not run.
   std::function<Schedule(const Case&, StepEngine* engine)> integrator = [](const Case& scene, StepEngine* engine) {
     return schedule_of(scene.numerics.integrator, engine);
   };
 };
+
+/// Those of a case, with what its methods bring.
+SolverRows rows_for(const Case& settled_case, SolverRows rows = SolverRows());
 
 /// As make_solver, with these rows.
 std::unique_ptr<Solver> make_solver_of(const SolverRows& rows, const compute::Device& device, const Case& settled_case,

@@ -1,0 +1,47 @@
+#include "wavetank/scene/methods.h"
+
+namespace wavetank {
+
+template <>
+const std::vector<MethodWord<Scheme>>& method_words() {
+  static const std::vector<MethodWord<Scheme>> words{
+      {Scheme::delta_sph, "delta_sph", "weakly compressible SPH with density diffusion and artificial viscosity"},
+      {Scheme::riemann_parshikov, "riemann_parshikov", "Parshikov and Medin's, with a Riemann problem between particles of constant mass"},
+      {Scheme::riemann_ale, "riemann_ale",
+       "Vila's, with a Riemann problem between particles that exchange mass, and whose volumes evolve"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<DensityDiffusion>>& method_words() {
+  static const std::vector<MethodWord<DensityDiffusion>> words{
+      {DensityDiffusion::none, "none", "with which water at rest does not stay so"},
+      {DensityDiffusion::fourtakas, "fourtakas", "of the dynamic density"},
+      {DensityDiffusion::antuono, "antuono", "with renormalised gradients"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<EquationOfState>>& method_words() {
+  static const std::vector<MethodWord<EquationOfState>> words{{EquationOfState::linear, "linear", "proportional to s = ρ/ρ₀ − 1"},
+                                                              {EquationOfState::cole, "cole", "Cole's with exponent 7"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<ViscosityModel>>& method_words() {
+  static const std::vector<MethodWord<ViscosityModel>> words{
+      {ViscosityModel::monaghan_gingold, "monaghan_gingold", "along the line of centres"}, {ViscosityModel::morris, "morris", "isotropic"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<Integrator>>& method_words() {
+  static const std::vector<MethodWord<Integrator>> words{
+      {Integrator::symplectic, "symplectic", "drift, kick, drift: second order, one evaluation of the rates a step"},
+      {Integrator::predictor_corrector, "predictor_corrector", "that of the moving-least-squares paper: second order, two"},
+      {Integrator::runge_kutta_4, "runge_kutta_4", "the classical one: fourth order, four"}};
+  return words;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,147 @@
+// Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
+// Riemann problems, and where GRADIENT_OF_VELOCITY of the velocity's components as well; where particles exchange mass, γ beside them. As pair.cl has them in the array.
+#include "walls.cl"
+#include "pair.cl"
+#define SWEEP_PARTICLES
+#if GRADIENTS_AND_SHEPARD
+#define SWEEP_WALLS
+#endif
+#define QUANTITIES (GRADIENT_OF_VELOCITY ? 4 : 1)
+
+typedef struct {
+  neighbours_t near;
+  tile own[QUANTITIES];
+  tile sum_x[QUANTITIES], sum_y[QUANTITIES], sum_z[QUANTITIES];
+  tile xx, xy, xz, yy, yz, zz;
+#if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
+  tile shepard;
+#endif
+} sweep_t;
+
+#if GRADIENTS_AND_SHEPARD
+typedef struct {
+  const walls_t* walls;
+  real shepard;
+} wall_sweep_t;
+
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+#if SHEPARD_GEOMETRIC
+  a->shepard += see_wall(p, a->walls, s, x, y, z).shepard;
+#endif
+}
+#endif
+
+INLINE void add_difference(sweep_t* a, int of, tile weighted, tile rx, tile ry, tile rz) {
+  a->sum_x[of] += weighted * rx;
+  a->sum_z[of] += weighted * rz;
+#if DIMENSIONS == 3
+  a->sum_y[of] += weighted * ry;
+#endif
+}
+
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_volume(&a->near, j);
+#if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
+  a->shepard += kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
+#endif
+  add_difference(a, 0, slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0]), rx, ry, rz);
+#if GRADIENT_OF_VELOCITY
+  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
+  add_difference(a, 1, slope_volume * (velocity.x - a->own[1]), rx, ry, rz);
+#if DIMENSIONS == 3
+  add_difference(a, 2, slope_volume * (velocity.y - a->own[2]), rx, ry, rz);
+#endif
+  add_difference(a, 3, slope_volume * (velocity.z - a->own[3]), rx, ry, rz);
+#endif
+  a->xx += slope_volume * rx * rx;
+  a->xz += slope_volume * rx * rz;
+  a->zz += slope_volume * rz * rz;
+#if DIMENSIONS == 3
+  a->xy += slope_volume * rx * ry;
+  a->yy += slope_volume * ry * ry;
+  a->yz += slope_volume * ry * rz;
+#endif
+}
+
+#include "sweep.cl"
+
+// L as a scale and the cofactors of its inverse. A matrix that is nearly singular (a particle of a thin jet) gives no gradient to trust: zero is taken.
+typedef struct {
+  real scale, xx, xy, xz, yy, yz, zz;
+} renormalisation_t;
+
+INLINE renormalisation_t renormalisation_of(real xx, real xy, real xz, real yy, real yz, real zz) {
+  const real least = R(1.0e-3);
+#if DIMENSIONS == 3
+  renormalisation_t l = {R(0.0), yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy, xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+  const real determinant = xx * l.xx + xy * l.xy + xz * l.xz;
+#else
+  renormalisation_t l = {R(0.0), zz, R(0.0), -xz, R(0.0), R(0.0), xx};
+  const real determinant = xx * zz - xz * xz;
+#endif
+  l.scale = determinant > least ? R(1.0) / determinant : R(0.0);
+  return l;
+}
+
+INLINE void write_gradient(__global real* gradient, long stride, int i, const renormalisation_t* l, real x, real y, real z) {
+#if DIMENSIONS == 3
+  gradient[i] = l->scale * (l->xx * x + l->xy * y + l->xz * z);
+  gradient[stride + i] = l->scale * (l->xy * x + l->yy * y + l->yz * z);
+  gradient[2 * stride + i] = l->scale * (l->xz * x + l->yz * y + l->zz * z);
+#else
+  gradient[i] = l->scale * (l->xx * x + l->xz * z);
+  gradient[stride + i] = R(0.0);
+  gradient[2 * stride + i] = l->scale * (l->xz * x + l->zz * z);
+#endif
+}
+
+__kernel void gradients(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
+                        WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  sweep_t a = {0};
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  a.own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
+#if GRADIENT_OF_VELOCITY
+  for (int axis = 0; axis < 3; ++axis) a.own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
+#endif
+  sweep_particles(&a, p, slot_start, images);
+  real xx[TILE_OWN], xy[TILE_OWN], xz[TILE_OWN], yy[TILE_OWN], yz[TILE_OWN], zz[TILE_OWN];
+  own_sums(a.xx, xx);
+  own_sums(a.xy, xy);
+  own_sums(a.xz, xz);
+  own_sums(a.yy, yy);
+  own_sums(a.yz, yz);
+  own_sums(a.zz, zz);
+  const real f = p->slope_scale;
+  renormalisation_t l[TILE_OWN];
+  for (int k = 0; k < TILE_OWN; ++k) l[k] = renormalisation_of(f * xx[k], f * xy[k], f * xz[k], f * yy[k], f * yz[k], f * zz[k]);
+#if GRADIENTS_AND_SHEPARD
+#if SHEPARD_VOLUMETRIC
+  real shepard[TILE_OWN];
+  own_sums(a.shepard, shepard);
+#endif
+  for (int k = 0; k < a.near.own; ++k) {
+#if SHEPARD_VOLUMETRIC
+    wall_sweep_t b = {&walls, shepard[k]};
+#else
+    wall_sweep_t b = {&walls, SHEPARD_START};
+#endif
+#if !GHOSTS
+    stand_at(&walls, state, stride, first + k);
+    LOOK_THROUGH(walls, a.near, k);
+    sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+#endif
+    gradient[GRADIENT_SHEPARD * stride + first + k] = bounded_shepard(b.shepard);
+  }
+#endif
+  for (int of = 0; of < QUANTITIES; ++of) {
+    places_t sum;
+    own_sums(a.sum_x[of], sum.x);
+    own_sums(a.sum_y[of], sum.y);
+    own_sums(a.sum_z[of], sum.z);
+    for (int k = 0; k < a.near.own; ++k)
+      write_gradient(gradient + (GRADIENT_COMPRESSION + 3 * of) * stride, stride, first + k, &l[k], f * sum.x[k], f * sum.y[k], f * sum.z[k]);
+  }
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../build_options.h"
+#include "../tables/fields.h"
+#include "../tables/parameters.h"
+#include "wavetank/compute/program.h"
+
+namespace wavetank {
+
+/// A part of the method that a case chooses by a word: its scheme, a term of it, its equation of state. Device code that knows of it only
+/// by its kind includes KIND.cl, which stands for KIND/WORD.cl; what it needs beside that it brings.
+struct Method {
+  std::string kind;                   ///< the case's key: "scheme"
+  std::string word;                   ///< and its word: "delta_sph"
+  std::vector<FieldRow> fields = {};  ///< beside the common ones, or in the place of one of the same name
+  std::vector<ParameterRow> parameters = {};
+  bool needs_compression_gradient = false;  ///< renormalised, at every state of which the compression's rate is found
+  bool needs_velocity_gradient = false;     ///< likewise
+  bool needs_shepard_factors = false;       ///< of neighbours, beside the gradients
+  bool accelerates_by_gradients = false;    ///< needs them at every state of which accelerations are found too
+  std::string code = {};                    ///< in place of that file's
+};
+
+/// Of which a case is made.
+using Methods = std::vector<Method>;
+
+/// Those that the case chooses.
+Methods methods_of(const Case& scene);
+
+/// The case's scheme, and what goes into it. One file each.
+Method scheme_of(const Case& scene);
+Method density_diffusion_of(const Case& scene);
+Method viscosity_of(const Case& scene);
+Method equation_of_state_of(const Case& scene);
+
+/// Components of gradients that kernels find for them: none, those of the compression, of the velocity too, and γ.
+int gradient_components(const Methods& methods);
+
+/// Whether accelerations need them too.
+bool accelerate_by_gradients(const Methods& methods);
+
+/// Sets what kernels are compiled with for them.
+void add_options(const Methods& methods, BuildOptions& options);
+
+/// Puts the device code of each in the place of its kind.
+void add_sources(const Methods& methods, compute::SourceFiles& files);
+
+}  // namespace wavetank

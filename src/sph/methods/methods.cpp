@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include "method.h"
+
+namespace wavetank {
+
+Methods methods_of(const Case& scene) {
+  return {scheme_of(scene), density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene)};
+}
+
+namespace {
+
+bool any_has(const Methods& methods, bool Method::*flag) {
+  return std::any_of(methods.begin(), methods.end(), [flag](const Method& method) { return method.*flag; });
+}
+
+}  // namespace
+
+int gradient_components(const Methods& methods) {
+  if (any_has(methods, &Method::needs_shepard_factors)) return 13;
+  if (any_has(methods, &Method::needs_velocity_gradient)) return 12;
+  return any_has(methods, &Method::needs_compression_gradient) ? 3 : 0;
+}
+
+bool accelerate_by_gradients(const Methods& methods) { return any_has(methods, &Method::accelerates_by_gradients); }
+
+void add_options(const Methods& methods, BuildOptions& options) {
+  options["GRADIENT_OF_VELOCITY"] = any_has(methods, &Method::needs_velocity_gradient);
+  options["GRADIENTS_AND_SHEPARD"] = any_has(methods, &Method::needs_shepard_factors);
+}
+
+void add_sources(const Methods& methods, compute::SourceFiles& files) {
+  for (const Method& method : methods) {
+    const std::string file = method.kind + "/" + method.word + ".cl";
+    if (!method.code.empty()) files[file] = method.code;
+    files[method.kind + ".cl"] = "#include \"" + file + "\"\n";
+  }
+}
+
+}  // namespace wavetank
