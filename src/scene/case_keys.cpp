@@ -182,7 +182,11 @@ Section<NumericsCase> numerics_section() {
   section.key("negative_pressure", &NumericsCase::negative_pressure,
               choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
               "What the fluid does where its pressure would fall below that of the air.");
-  section.key("shifting", &NumericsCase::shifting, choice<Shifting>({{"none", Shifting::none}}), "", "Particle shifting law.");
+  section.key("shifting", &NumericsCase::shifting, method<Shifting>(), "", meanings<Shifting>("Particle shifting law"));
+  section.key("tensile", &NumericsCase::tensile, method<Tensile>(), "",
+              meanings<Tensile>("Where the laws lind, sun and michel also hold particles apart that come close"));
+  section.key("expected_speed", &NumericsCase::expected_speed, number_or_auto(greater_than(0)), "m/s",
+              "Greatest speed of the water that is expected, for the laws oger and sun; `auto` is a tenth of the speed of sound.");
   section.key("integrator", &NumericsCase::integrator, method<Integrator>(), "", meanings<Integrator>("Time scheme"));
   section.key("courant", &NumericsCase::courant, number(above_up_to(0, 1.5)), "", "Time step as a fraction of h/(c₀ + |u|).");
   section.key("precision", &NumericsCase::precision, choice<Precision>({{"single", Precision::single}, {"double", Precision::double_}}), "",

@@ -36,6 +36,26 @@ const std::vector<MethodWord<ViscosityModel>>& method_words() {
 }
 
 template <>
+const std::vector<MethodWord<Shifting>>& method_words() {
+  static const std::vector<MethodWord<Shifting>> words{
+      {Shifting::none, "none", "particles move with the water"},
+      {Shifting::monaghan, "monaghan", "by smoothed velocities"},
+      {Shifting::lind, "lind", "down the concentration's gradient, by the time step"},
+      {Shifting::oger, "oger", "by `expected_speed`, up to a quarter of a particle's own speed"},
+      {Shifting::sun, "sun", "by `expected_speed`, up to half of it"},
+      {Shifting::michel, "michel",
+       "by how fast neighbours approach each other: it vanishes with the resolution, and where water moves as a solid"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<Tensile>>& method_words() {
+  static const std::vector<MethodWord<Tensile>> words{{Tensile::hybrid, "hybrid", "farther from walls than the support"},
+                                                      {Tensile::plain, "plain", "nowhere"}};
+  return words;
+}
+
+template <>
 const std::vector<MethodWord<Integrator>>& method_words() {
   static const std::vector<MethodWord<Integrator>> words{
       {Integrator::symplectic, "symplectic", "drift, kick, drift: second order, one evaluation of the rates a step"},

@@ -27,6 +27,7 @@ Case settled(const Case& checked, const Layout& layout, double fastest_wall) {
       throw Error("fluid/sound_speed is auto, but without gravity and moving walls there is no expected speed: give it in m/s.");
     result.fluid.sound_speed = 10.0 * speed;
   }
+  if (!result.numerics.expected_speed) result.numerics.expected_speed = 0.1 * *result.fluid.sound_speed;
   return result;
 }
 

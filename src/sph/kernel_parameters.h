@@ -34,6 +34,8 @@ enum Wall {
   // of facets, whose area is 0 where they are large: three edges (2-D: one) of edge_count values each
   edges = tangent_x
 };
+enum Around { around_eigenvalue, around_normal, around_shepard = around_normal + 3, around_surface, around_count = around_surface + 5 };
+constexpr double shift_most = 0.2;  // of the spacing, in a step
 constexpr int edge_count = 8;
 constexpr int barrier_count = 17;
 constexpr int free_edge_count = 8;

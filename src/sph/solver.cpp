@@ -35,6 +35,7 @@ SolverRows rows_for(const Case& settled_case, SolverRows rows) {
       else
         *same = field;
     }
+    rows.reports.insert(rows.reports.end(), method.reports.begin(), method.reports.end());
     rows.parameters.insert(rows.parameters.end(), method.parameters.begin(), method.parameters.end());
   }
   return rows;

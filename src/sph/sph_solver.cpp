@@ -27,7 +27,8 @@ bool all_finite(const std::vector<WallWrench>& wrenches) {
 /// How far a particle may be from where it was sorted when wrenches are found, m: a step is courant h/c₀ at the most, and at half the speed
 /// of sound the watchdog ends the run.
 double farthest_drift(const Schedule& schedule, const Case& scene, const Discretisation& d) {
-  const double way = 0.5 * scene.numerics.courant * d.smoothing_length;
+  const double shift = scene.numerics.shifting == Shifting::none ? 0 : field::shift_most * d.spacing;
+  const double way = 0.5 * scene.numerics.courant * d.smoothing_length + shift;
   return std::max(0.25 * d.spacing, schedule.drift() * way);
 }
 
@@ -245,7 +246,8 @@ void SphSolver<Real>::sort() {
 template <class Real>
 void SphSolver<Real>::widen_reach(double part, double speed) {
   constexpr double for_rounding = 1.0 + 1e-5;
-  surroundings_.reach = static_cast<Real>((discretisation_.support + part * step_ * speed) * for_rounding);
+  const double shift = shifts() ? field::shift_most * discretisation_.spacing : 0;
+  surroundings_.reach = static_cast<Real>((discretisation_.support + part * (step_ * speed + shift)) * for_rounding);
 }
 
 template <class Real>
@@ -316,6 +318,19 @@ template <class Real>
 void SphSolver<Real>::guard() {
   kernels_.guard.launch(count_);
   if (guarded_.gives() && mover_ != nullptr) guarded_.gather();
+}
+
+template <class Real>
+void SphSolver<Real>::find_surface() {
+  kernels_.normals.launch(count_);
+  kernels_.cone.launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::find_shifts() {
+  if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
+  find_surface();
+  kernels_.shifts.launch(count_);
 }
 
 template <class Real>

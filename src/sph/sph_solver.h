@@ -94,6 +94,7 @@ class SphSolver final : public Solver, private StepEngine {
   void walls_to_end() override;
   void guard() override;
   void sort() override;
+  void find_shifts() override;
   void drift_to_middle() override;
   void kick_and_drift_to_end() override;
   void compress_to_end() override;
@@ -101,6 +102,7 @@ class SphSolver final : public Solver, private StepEngine {
   void take_sum(double weight) override;
   void predict_end() override;
   void correct_end() override;
+  bool shifts() const { return fields_.has(ParticleArray::state, "shift_x"); }
   const Buffer& buffer_of(Slot state) const { return state == Slot::now ? state_ : half_; }
   /// For what a particle may move in a part of the step, at `speed`, m/s.
   void widen_reach(double part, double speed);
@@ -111,13 +113,14 @@ class SphSolver final : public Solver, private StepEngine {
   void place_walls(const WallMotions& motions);
   void place_barriers();
   void load_walls(Slot state);
+  void find_surface();
   void find_gradients(Slot state);
   StepReport watch();
   void describe_offender(StepReport& report, int first) const;
 
   struct Kernels {
     std::map<Slot, BoundSweep> continuity, momentum, gradients, loads;
-    BoundSweep packing, surface, crowding, pairs, guard;
+    BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
   };
@@ -178,7 +181,8 @@ class SphSolver final : public Solver, private StepEngine {
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
   Buffer report_, watches_, energy_parts_, fillings_;
-  Buffer surface_, packing_parts_;  ///< on the device only while they are needed
+  Buffer around_;         ///< of the free surface and what shifting laws go by; on the device only while it is needed
+  Buffer packing_parts_;  ///< likewise
   Buffer group_watches_;
   compute::Buffer<int> alarms_, group_alarms_, pair_counts_;
   RowSums<Real> energy_sums_, packing_sums_;

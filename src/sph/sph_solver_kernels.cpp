@@ -45,7 +45,11 @@ void SphSolver<Real>::bind_sweeps() {
     kernels_.loads[slot] = make_->over_points("wall_loads.cl", "wall_loads", writes.value("count", walls_.count).memory("loads", loads_));
   }
   kernels_.packing = make_->over_particles("packing.cl", "packing", arguments().memory("rates", rates_));
-  kernels_.surface = make_->over_particles("points.cl", "surface", arguments().memory("results", surface_));
+  kernels_.normals = make_->over_particles("surface.cl", "surface_normals", arguments().memory("around", around_));
+  kernels_.cone = make_->over_particles("cone.cl", "surface_cone", arguments().memory("around", around_));
+  if (shifts())
+    kernels_.shifts =
+        make_->over_particles("shifts.cl", "shifts", arguments().memory("state", state_).memory("around", std::as_const(around_)));
   kernels_.crowding = make_->over_particles("crowding.cl", "crowding", arguments().memory("fillings", fillings_));
   kernels_.pairs = make_->over_particles("pairs.cl", "pairs", arguments().memory("counts", pair_counts_));
   compute::Arguments guarding = arguments().memory("state", state_);

@@ -102,10 +102,10 @@ LostVolume SphSolver<Real>::lost_volume() {
 template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
-  surface_ = Buffer(device_, 2 * static_cast<std::size_t>(stride_));
-  kernels_.surface.launch(count_);
-  const std::vector<Real> surface = surface_.download();
-  surface_ = Buffer();
+  around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
+  find_surface();
+  const std::vector<Real> around = around_.download();
+  around_ = Buffer();
   FluidState fluid;
   fluid.id = id_.download();
   const Real* const pressure = component(state, "pressure");
@@ -117,8 +117,8 @@ FluidState SphSolver<Real>::download() {
     fluid.pressure.push_back(pressure[i]);
     fluid.compression.push_back(compression[i]);
     fluid.mass.push_back(mass[i]);
-    fluid.surface.push_back(surface[i] > Real(0.5) ? 1 : 0);
-    fluid.shepard.push_back(surface[stride_ + i]);
+    fluid.surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);
+    fluid.shepard.push_back(around[field::around_shepard * stride_ + i]);
   }
   return fluid;
 }

@@ -38,6 +38,7 @@ StepReport SphSolver<Real>::start_at_rest() {
     std::fill_n(state.begin() + (first_.velocity + axis) * stride_, stride_, Real(0));
     if ((long_axes_ >> axis & 1) == 0)  // elsewhere they are part of the place
       std::fill_n(state.begin() + (first_.rest + axis) * stride_, stride_, Real(0));
+    if (shifts()) std::fill_n(state.begin() + (fields_.at(ParticleArray::state, "shift_x") + axis) * stride_, stride_, Real(0));
   }
   state_.upload(state);
   kernels_.derive.launch(count_);

@@ -217,7 +217,6 @@ enum class WallMethod { boundary_integral, ghost };
 enum class ShepardFactor { none, volumetric, monolithic, geometric };
 enum class WallElements { numerical, semi_analytical, facet };
 enum class Slip { no_slip, free_slip };
-enum class Shifting { none };
 enum class Precision { single, double_ };
 /// What the fluid does where its pressure would fall below that of the air, which is not simulated.
 enum class NegativePressure { allowed, clamped };
@@ -248,6 +247,8 @@ struct NumericsCase {
   ViscosityModel viscosity_model = ViscosityModel::monaghan_gingold;
   NegativePressure negative_pressure = NegativePressure::clamped;
   Shifting shifting = Shifting::none;
+  Tensile tensile = Tensile::hybrid;     ///< where shifting laws hold particles apart that come close
+  std::optional<double> expected_speed;  ///< m/s, of shifting laws; none = a tenth of the speed of sound
   Integrator integrator = Integrator::symplectic;
   double courant = 0.5;  ///< Δt as a fraction of h/(c₀ + |u|)
   Precision precision = Precision::single;

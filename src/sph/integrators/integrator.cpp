@@ -17,7 +17,9 @@ Stage sort_stage(StepEngine* engine) {
   return {"neighbour grid", state_of("now"), state_of("now") + at("now", {"walls"}), [engine] { engine->sort(); }, 0, false, true};
 }
 
-Schedule schedule_of(Integrator integrator, StepEngine* engine) {
+namespace {
+
+Schedule of_integrator(Integrator integrator, StepEngine* engine) {
   switch (integrator) {
     case Integrator::runge_kutta_4:
       return runge_kutta_4(engine);
@@ -29,6 +31,16 @@ Schedule schedule_of(Integrator integrator, StepEngine* engine) {
   return symplectic(engine);
 }
 
-std::string schedule_page(const Case& scene) { return schedule_of(scene.numerics.integrator, nullptr).page(); }
+}  // namespace
+
+Schedule schedule_of(const Case& scene, StepEngine* engine) {
+  Schedule schedule = of_integrator(scene.numerics.integrator, engine);
+  if (scene.numerics.shifting != Shifting::none)
+    schedule.begin_with({"shifts by " + word_of(scene.numerics.shifting), state_of("now") + at("now", {"walls"}), at("now", {"shift"}),
+                         [engine] { engine->find_shifts(); }, 0, true});
+  return schedule;
+}
+
+std::string schedule_page(const Case& scene) { return schedule_of(scene, nullptr).page(); }
 
 }  // namespace wavetank

@@ -29,6 +29,8 @@ class StepEngine {
   /// with which they were half a step before at the start of the step.
   virtual void guard() = 0;
   virtual void sort() = 0;
+  /// δu of the state that is now, with which x changes beside u; held for the whole step.
+  virtual void find_shifts() = 0;
 
   // of the symplectic scheme
   virtual void drift_to_middle() = 0;
@@ -57,8 +59,8 @@ Schedule symplectic(StepEngine* engine);
 Schedule runge_kutta_4(StepEngine* engine);
 Schedule predictor_corrector(StepEngine* engine);
 
-/// The case's.
-Schedule schedule_of(Integrator integrator, StepEngine* engine);
+/// The case's, with its shifting law.
+Schedule schedule_of(const Case& scene, StepEngine* engine);
 
 /// What a state consists of, and what follows from it.
 std::vector<Access> state_of(const std::string& instant);

@@ -76,6 +76,17 @@ INLINE void move_from(__global const real* from, __global real* to, long stride,
 
 INLINE void move(__global real* state, long stride, int axis, int i, real displacement) { move_from(state, state, stride, axis, i, displacement); }
 
+// With which a particle moves along an axis: the water's velocity, and what a shifting law adds for the whole of a step.
+#ifdef FIELD_SHIFT_X
+#define SHIFT_OF(state, axis, i) ((state)[(FIELD_SHIFT_X + (axis)) * stride + (i)])
+#define KEEP_SHIFT(from, to, axis, i) (to)[(FIELD_SHIFT_X + (axis)) * stride + (i)] = (from)[(FIELD_SHIFT_X + (axis)) * stride + (i)]
+#define FORGET_SHIFT(to, axis, i) (to)[(FIELD_SHIFT_X + (axis)) * stride + (i)] = R(0.0)
+#else
+#define SHIFT_OF(state, axis, i) R(0.0)
+#define KEEP_SHIFT(from, to, axis, i)
+#define FORGET_SHIFT(to, axis, i)
+#endif
+
 // By its bits: fast-math deletes a comparison with itself.
 INLINE bool not_finite(real value) {
 #if USE_DOUBLE

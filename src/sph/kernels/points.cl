@@ -89,27 +89,3 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   results[2 * count + i] = shepard;
 }
 #endif
-
-// Free surface: the particles whose kernel, beyond the walls' share, is not full. Written as 1 or 0, with γ beside it.
-__kernel void surface(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                      WALL_ARGUMENTS, __global const real* images, __global real* results) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
-  walls_t walls = WALLS_OF_ARGUMENTS;
-  sweep_t a = {0};
-  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
-  sweep_particles(&a, p, slot_start, images);
-  real weight[TILE_OWN];
-  own_sums(a.weight, weight);
-  for (int k = 0; k < a.near.own; ++k) {
-    wall_sweep_t b = {&walls, R(1.0), false, R(0.0), R(0.0), R(0.0)};
-#if !GHOSTS
-    stand_at(&walls, state, stride, first + k);
-    LOOK_THROUGH(walls, a.near, k);
-    sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-#endif
-    // a flat surface's first row has 0.75 of a full kernel, its second more than 0.95
-    results[first + k] = weight[k] < R(0.85) * bounded_shepard(b.shepard) ? R(1.0) : R(0.0);
-    results[stride + first + k] = b.shepard;
-  }
-}

@@ -125,6 +125,20 @@ INLINE void lanes_of(tile v, real* lanes) { vstore16(v, 0, lanes); }
 INLINE tile tile_of(const real* lanes) { return vload16(0, lanes); }
 #endif
 
+// The greatest over the candidates, of each own particle.
+INLINE void own_greatest(tile a, real* greatest) {
+#if TILE_LANES == 1
+  greatest[0] = a;
+#else
+  real lanes[TILE_LANES];
+  lanes_of(a, lanes);
+  for (int k = 0; k < TILE_OWN; ++k) {
+    greatest[k] = lanes[k * TILE_NEAR];
+    for (int lane = k * TILE_NEAR + 1; lane < (k + 1) * TILE_NEAR; ++lane) greatest[k] = fmax(greatest[k], lanes[lane]);
+  }
+#endif
+}
+
 typedef struct {
   real x, y, z;
 } vector_t;

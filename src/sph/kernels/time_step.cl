@@ -50,9 +50,11 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   const real half_step = R(0.5) * time_step[0];
   for (int axis = 0; axis < 3; ++axis) {
     const real speed = state[(FIELD_U + axis) * stride + i];
-    half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i] + half_step * speed;
-    if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * speed);
+    const real motion = speed + SHIFT_OF(state, axis, i);
+    half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i] + half_step * motion;
+    if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * motion);
     half_state[(FIELD_U + axis) * stride + i] = speed;
+    KEEP_SHIFT(state, half_state, axis, i);
   }
 #define DRIFT(NAME) half_state[FIELD_##NAME * stride + i] = state[FIELD_##NAME * stride + i] + half_step * rates[RATE_##NAME * stride + i];
   EACH_CONJUGATE(DRIFT)
@@ -94,7 +96,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     const real before = state[(FIELD_U + axis) * stride + i];
     const real after = (before + step * rates[(RATE_U + axis) * stride + i]) / (R(1.0) + step * p->damping);
     state[(FIELD_U + axis) * stride + i] = after;
-    move(state, stride, axis, i, R(0.5) * step * (before + after));
+    move(state, stride, axis, i, R(0.5) * step * (before + after) + step * SHIFT_OF(state, axis, i));
   }
   wrap(p, state, stride, i);
   if (not_finite(half_state[FIELD_COMPRESSION * stride + i])) state[FIELD_U * stride + i] = half_state[FIELD_COMPRESSION * stride + i];  // lost in all
@@ -140,10 +142,12 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
     __global real* sum_x = sum + (SUM_X + axis) * stride + i;
     __global real* sum_u = sum + (SUM_U + axis) * stride + i;
-    *sum_x = (first ? R(0.0) : *sum_x) + weight * speed;
+    const real motion = speed + SHIFT_OF(now, axis, i);
+    *sum_x = (first ? R(0.0) : *sum_x) + weight * motion;
     *sum_u = (first ? R(0.0) : *sum_u) + weight * acceleration;
-    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * speed;
-    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * speed);
+    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * motion;
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * motion);
+    KEEP_SHIFT(now, trial, axis, i);
     trial[(FIELD_U + axis) * stride + i] = now[(FIELD_U + axis) * stride + i] + step * acceleration;
   }
 #define GO_ON(NAME)                                                                                                                           \
@@ -165,6 +169,7 @@ INLINE void end_step(__constant const parameters_t* p, __global real* now, __glo
     way += back * back;
     trial[(FIELD_X + axis) * stride + i] = start[axis];
     trial[(FIELD_U + axis) * stride + i] = R(0.0);
+    FORGET_SHIFT(trial, axis, i);
   }
   rates[RATE_CLEARANCE * stride + i] -= sqrt(way);
   wrap(p, now, stride, i);
@@ -183,7 +188,7 @@ __kernel void take_sum(__constant const parameters_t* p, int count, __global rea
     start[axis] = now[(FIELD_X + axis) * stride + i];
     const real speed = trial[(FIELD_U + axis) * stride + i];
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
-    move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * speed));
+    move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * (speed + SHIFT_OF(now, axis, i))));
     now[(FIELD_U + axis) * stride + i] += step * (sum[(SUM_U + axis) * stride + i] + weight * acceleration);
   }
   end_step(p, now, trial, stride, i, rates, start, step, sum, weight);
@@ -200,8 +205,10 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
     sum[(SUM_U + axis) * stride + i] = R(0.5) * acceleration;
     trial[(FIELD_U + axis) * stride + i] = speed + step * acceleration;
-    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * (speed + step * acceleration);
-    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * (speed + step * acceleration));
+    const real motion = speed + step * acceleration + SHIFT_OF(now, axis, i);
+    trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * motion;
+    if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * motion);
+    KEEP_SHIFT(now, trial, axis, i);
   }
 #define PREDICT(NAME)                                                          \
   sum[SUM_##NAME * stride + i] = R(0.5) * rates[RATE_##NAME * stride + i];     \
@@ -223,7 +230,7 @@ __kernel void correct_end(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * trial[(FIELD_U + axis) * stride + i];
     const real after = before + step * (sum[(SUM_U + axis) * stride + i] + R(0.5) * acceleration);
     now[(FIELD_U + axis) * stride + i] = after;
-    move(now, stride, axis, i, R(0.5) * step * (before + after));
+    move(now, stride, axis, i, R(0.5) * step * (before + after) + step * SHIFT_OF(now, axis, i));
   }
   end_step(p, now, trial, stride, i, rates, start, step, sum, R(0.5));
 }
@@ -236,6 +243,7 @@ __kernel void move_packed(__constant const parameters_t* p, int count, __global 
   for (int axis = 0; axis < 3; ++axis) {
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i];  // for the guard: where it was
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
+    FORGET_SHIFT(half_state, axis, i);
     const real way = rates[(RATE_U + axis) * stride + i];
     if (IS_LONG(axis)) {
       move(state, stride, axis, i, way);

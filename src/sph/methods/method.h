@@ -6,6 +6,7 @@
 #include "../build_options.h"
 #include "../tables/fields.h"
 #include "../tables/parameters.h"
+#include "../tables/reports.h"
 #include "wavetank/compute/program.h"
 
 namespace wavetank {
@@ -17,6 +18,7 @@ struct Method {
   std::string word;                   ///< and its word: "delta_sph"
   std::vector<FieldRow> fields = {};  ///< beside the common ones, or in the place of one of the same name
   std::vector<ParameterRow> parameters = {};
+  std::vector<ReportRow> reports = {};
   bool needs_compression_gradient = false;  ///< renormalised, at every state of which the compression's rate is found
   bool needs_velocity_gradient = false;     ///< likewise
   bool needs_shepard_factors = false;       ///< of neighbours, beside the gradients
@@ -35,6 +37,7 @@ Method scheme_of(const Case& scene);
 Method density_diffusion_of(const Case& scene);
 Method viscosity_of(const Case& scene);
 Method equation_of_state_of(const Case& scene);
+Method shifting_of(const Case& scene);
 
 /// Components of gradients that kernels find for them: none, those of the compression, of the velocity too, and γ.
 int gradient_components(const Methods& methods);

@@ -5,7 +5,7 @@
 namespace wavetank {
 
 Methods methods_of(const Case& scene) {
-  return {scheme_of(scene), density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene)};
+  return {scheme_of(scene), density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene), shifting_of(scene)};
 }
 
 namespace {

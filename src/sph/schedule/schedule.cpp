@@ -43,6 +43,12 @@ std::vector<Access> operator+(std::vector<Access> some, const std::vector<Access
 Schedule::Schedule(std::string integrator, std::vector<Access> kept, std::vector<Stage> stages)
     : integrator_(std::move(integrator)), kept_(std::move(kept)), stages_(std::move(stages)) {}
 
+void Schedule::begin_with(Stage stage) {
+  for (const Access& access : stage.reads)
+    if (std::find(kept_.begin(), kept_.end(), access) == kept_.end()) kept_.push_back(access);
+  stages_.insert(stages_.begin(), std::move(stage));
+}
+
 void Schedule::check() const {
   std::set<Access> written(kept_.begin(), kept_.end());
   std::map<Access, std::string> left_behind;  // by which stage

@@ -21,7 +21,7 @@ struct SolverRows {
   std::function<Methods(const Case&)> methods = methods_of;
   /// The steps of a case; `engine` may be null where they are not run.
   std::function<Schedule(const Case&, StepEngine* engine)> integrator = [](const Case& scene, StepEngine* engine) {
-    return schedule_of(scene.numerics.integrator, engine);
+    return schedule_of(scene, engine);
   };
 };
 

@@ -1,0 +1,30 @@
+// What is found about each particle's free surface and evenness, in an array of its own.
+#define AROUND_EIGENVALUE 0     // λ
+#define AROUND_NORMAL 1         // out of the water
+#define AROUND_SHEPARD 4        // γ
+#define AROUND_SURFACE 5        // 1: on the free surface
+#define AROUND_CONCENTRATION 6  // for shifting laws: ∇C with walls, and what the law wants beside it
+#define AROUND_APPROACH 9       // likewise: the greatest |(u_j − u_i)·e|
+
+// λ below which a particle is on the surface, and above which it is inside; between them the cone tells.
+#define EIGENVALUE_OF_SURFACE R(0.2)
+#define EIGENVALUE_INSIDE R(0.75)
+
+// No particle is shifted farther in a step than this part of the spacing.
+#define SHIFT_MOST R(0.2)
+
+// Of a particle whose shift is wanted.
+typedef struct {
+  vector_t concentration, velocity;
+  real approach;  // m/s
+  real depth;     // its distance from the nearest particle of the surface, of the support; 1 beyond it
+  real step;      // Δt
+} shifted_t;
+
+INLINE vector_t times(real factor, vector_t v) { return make_vector(factor * v.x, factor * v.y, factor * v.z); }
+
+// No longer than `most`.
+INLINE vector_t limited(vector_t v, real most) {
+  const real size = sqrt(dot3(v, v));
+  return size > most ? times(most / size, v) : v;
+}

@@ -1,0 +1,2 @@
+// No shifting law.
+#define SHIFTING 0

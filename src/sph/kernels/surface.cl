@@ -1,0 +1,238 @@
+// Where the water has a free surface: the least eigenvalue λ of Σ_j r ⊗ ∇W V_j (eq (42) of the particle shifting paper with M, not its inverse), with walls by
+// eq (55); between its bounds Marrone's cone test. What shifting laws need of the neighbours comes from the same sweep.
+#include "walls.cl"
+#include "around.cl"
+#include "shifting.cl"
+#define SWEEP_PARTICLES
+#define SWEEP_WALLS
+
+typedef struct {
+  neighbours_t near;
+  tile sum_x, sum_y, sum_z;      // ∇C
+  tile xx, xy, xz, yy, yz, zz;
+#if SHIFTING
+  tile u, v, w;
+  tile approach;  // the greatest square of (u_j − u_i)·e
+#if SHIFT_TENSILE
+  tile tensile_x, tensile_y, tensile_z;
+#endif
+#if SHIFT_SMOOTHS
+  tile compression;
+  tile smooth_x, smooth_y, smooth_z;
+#endif
+#endif
+#if SHEPARD_VOLUMETRIC
+  tile shepard;
+#endif
+} sweep_t;
+
+typedef struct {
+  const walls_t* walls;
+  real x, y, z;                  // ∇C's part
+  real xx, xy, xz, yy, yz, zz;   // of ∫ (y − x) ⊗ n W dS, its symmetric part
+  real weight, shepard;
+} wall_sweep_t;
+
+INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
+  const tile distance = sqrt(r2);
+  const tile volume = near_volume(&a->near, j);
+  const tile slope_volume = kernel_slopes(p, distance) * volume;
+  a->sum_x += slope_volume * rx;
+  a->sum_z += slope_volume * rz;
+  a->xx += slope_volume * rx * rx;
+  a->xz += slope_volume * rx * rz;
+  a->zz += slope_volume * rz * rz;
+#if DIMENSIONS == 3
+  a->sum_y += slope_volume * ry;
+  a->xy += slope_volume * rx * ry;
+  a->yy += slope_volume * ry * ry;
+  a->yz += slope_volume * ry * rz;
+#endif
+#if SHEPARD_VOLUMETRIC
+  a->shepard += kernel_values(p, distance) * volume;
+#endif
+#if SHIFTING
+  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
+  const tile du = velocity.x - a->u, dw = velocity.z - a->w;
+#if DIMENSIONS == 3
+  const tile dv = velocity.y - a->v;
+  const tile towards = du * rx + dv * ry + dw * rz;
+#else
+  const tile towards = du * rx + dw * rz;
+#endif
+#if GHOSTS
+  if (!a->near.mirrored)
+#endif
+  {
+    // of the water within the support alone; nothing is at r = 0 but the particle itself
+    const tile within = step((tile)(R(1.0e-30)), slope_volume);
+    a->approach = fmax(a->approach, within * towards * towards / fmax(r2, (tile)(R(1.0e-12) * p->smoothing_length * p->smoothing_length)));
+  }
+#if SHIFT_TENSILE
+  const tile ratio = kernel_values(p, distance) * p->inverse_kernel_at_spacing;
+  const tile tensile = slope_volume * (ratio * ratio) * (ratio * ratio);
+  a->tensile_x += tensile * rx;
+  a->tensile_z += tensile * rz;
+#if DIMENSIONS == 3
+  a->tensile_y += tensile * ry;
+#endif
+#endif
+#if SHIFT_SMOOTHS
+  const tile near_density = R(1.0) + neighbour_compression(&a->near, p, j, rx, ry, rz);
+  const tile weight = kernel_values(p, distance) * volume * near_density / (R(1.0) + a->compression + near_density);
+  a->smooth_x += weight * du;
+  a->smooth_z += weight * dw;
+#if DIMENSIONS == 3
+  a->smooth_y += weight * dv;
+#endif
+#endif
+#endif
+}
+
+INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
+#if SHEPARD_GEOMETRIC
+  a->shepard += c.shepard;
+#endif
+  a->weight += c.weight;
+  a->x += c.weight * c.normal.x;
+  a->y += c.weight * c.normal.y;
+  a->z += c.weight * c.normal.z;
+  a->xx += c.moment.x * c.normal.x;
+  a->zz += c.moment.z * c.normal.z;
+  a->xz += R(0.5) * (c.moment.x * c.normal.z + c.moment.z * c.normal.x);
+#if DIMENSIONS == 3
+  a->yy += c.moment.y * c.normal.y;
+  a->xy += R(0.5) * (c.moment.x * c.normal.y + c.moment.y * c.normal.x);
+  a->yz += R(0.5) * (c.moment.y * c.normal.z + c.moment.z * c.normal.y);
+#endif
+}
+
+#include "sweep.cl"
+
+typedef struct {
+  real xx, xy, xz, yy, yz, zz;
+} symmetric_t;
+
+INLINE real least_eigenvalue(const symmetric_t* m) {
+#if DIMENSIONS == 2
+  const real mean = R(0.5) * (m->xx + m->zz), apart = R(0.5) * (m->xx - m->zz);
+  return mean - sqrt(apart * apart + m->xz * m->xz);
+#else
+  const real mean = (m->xx + m->yy + m->zz) / R(3.0);
+  const real a = m->xx - mean, b = m->yy - mean, c = m->zz - mean;
+  const real size2 = (a * a + b * b + c * c + R(2.0) * (m->xy * m->xy + m->xz * m->xz + m->yz * m->yz)) / R(6.0);
+  const real size = sqrt(size2);
+  const real determinant = a * (b * c - m->yz * m->yz) - m->xy * (m->xy * c - m->yz * m->xz) + m->xz * (m->xy * m->yz - b * m->xz);
+  const real cosine = fmin(fmax(R(0.5) * determinant / fmax(size2 * size, R(1.0e-30)), R(-1.0)), R(1.0));
+  return mean + R(2.0) * size * cos((acos(cosine) + R(6.28318530718)) / R(3.0));
+#endif
+}
+
+// Out of the water: M⁻¹ by the sum, or the sum itself where M is nearly singular.
+INLINE vector_t outward(const symmetric_t* m, vector_t sum) {
+#if DIMENSIONS == 3
+  const real c_xx = m->yy * m->zz - m->yz * m->yz, c_xy = m->xz * m->yz - m->xy * m->zz, c_xz = m->xy * m->yz - m->xz * m->yy;
+  const real c_yy = m->xx * m->zz - m->xz * m->xz, c_yz = m->xy * m->xz - m->xx * m->yz, c_zz = m->xx * m->yy - m->xy * m->xy;
+  const real determinant = m->xx * c_xx + m->xy * c_xy + m->xz * c_xz;
+  vector_t n = make_vector(c_xx * sum.x + c_xy * sum.y + c_xz * sum.z, c_xy * sum.x + c_yy * sum.y + c_yz * sum.z,
+                           c_xz * sum.x + c_yz * sum.y + c_zz * sum.z);
+#else
+  const real determinant = m->xx * m->zz - m->xz * m->xz;
+  vector_t n = make_vector(m->zz * sum.x - m->xz * sum.z, R(0.0), m->xx * sum.z - m->xz * sum.x);
+#endif
+  if (determinant < R(1.0e-6)) n = sum;
+  const real scale = R(-1.0) / sqrt(fmax(dot3(n, n), R(1.0e-30)));
+  return make_vector(scale * n.x, scale * n.y, scale * n.z);
+}
+
+__kernel void surface_normals(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
+                              real reach, WALL_ARGUMENTS, __global const real* images, __global real* around) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  sweep_t a = {0};
+  neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+#if SHIFTING
+  a.u = own_values(state + FIELD_U * stride, first);
+  a.v = own_values(state + FIELD_V * stride, first);
+  a.w = own_values(state + FIELD_W * stride, first);
+#if SHIFT_SMOOTHS
+  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
+#endif
+#endif
+  sweep_particles(&a, p, slot_start, images);
+  places_t sum;
+  real xx[TILE_OWN], xy[TILE_OWN], xz[TILE_OWN], yy[TILE_OWN], yz[TILE_OWN], zz[TILE_OWN];
+  own_sums(a.sum_x, sum.x);
+  own_sums(a.sum_y, sum.y);
+  own_sums(a.sum_z, sum.z);
+  own_sums(a.xx, xx);
+  own_sums(a.xy, xy);
+  own_sums(a.xz, xz);
+  own_sums(a.yy, yy);
+  own_sums(a.yz, yz);
+  own_sums(a.zz, zz);
+#if SHIFTING
+  real approach[TILE_OWN];
+  own_greatest(a.approach, approach);
+#if SHIFT_TENSILE
+  places_t tensile;
+  own_sums(a.tensile_x, tensile.x);
+  own_sums(a.tensile_y, tensile.y);
+  own_sums(a.tensile_z, tensile.z);
+#endif
+#if SHIFT_SMOOTHS
+  places_t smooth;
+  own_sums(a.smooth_x, smooth.x);
+  own_sums(a.smooth_y, smooth.y);
+  own_sums(a.smooth_z, smooth.z);
+#endif
+#endif
+  const real f = p->slope_scale;
+  for (int k = 0; k < a.near.own; ++k) {
+    const int i = first + k;
+    wall_sweep_t b = {0};
+    b.walls = &walls;
+    b.shepard = R(1.0);
+#if !GHOSTS
+    stand_at(&walls, state, stride, i);
+    LOOK_THROUGH(walls, a.near, k);
+    sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+#endif
+    const real inverse = R(1.0) / fmin(fmax(b.shepard, R(0.05)), R(1.0));
+    const symmetric_t m = {inverse * (f * xx[k] + b.xx), inverse * (f * xy[k] + b.xy), inverse * (f * xz[k] + b.xz),
+                           inverse * (f * yy[k] + b.yy), inverse * (f * yz[k] + b.yz), inverse * (f * zz[k] + b.zz)};
+    const vector_t concentration = make_vector(f * sum.x[k] + b.x, f * sum.y[k] + b.y, f * sum.z[k] + b.z);
+    const vector_t n = outward(&m, concentration);
+    around[AROUND_EIGENVALUE * stride + i] = least_eigenvalue(&m);
+    around[AROUND_NORMAL * stride + i] = n.x;
+    around[(AROUND_NORMAL + 1) * stride + i] = n.y;
+    around[(AROUND_NORMAL + 2) * stride + i] = n.z;
+#if SHEPARD_VOLUMETRIC
+    real shepard[TILE_OWN];
+    own_sums(a.shepard, shepard);
+    around[AROUND_SHEPARD * stride + i] = shepard[k];
+#else
+    around[AROUND_SHEPARD * stride + i] = b.shepard;
+#endif
+#if SHIFTING
+    vector_t uneven = concentration;
+#if SHIFT_TENSILE
+    // by a wall its own tensile part would have to balance that of the water; without either, water rests there
+    if (b.weight == R(0.0) && p->tensile > R(0.0)) {
+      uneven.x += p->tensile * f * tensile.x[k];
+      uneven.y += p->tensile * f * tensile.y[k];
+      uneven.z += p->tensile * f * tensile.z[k];
+    }
+#endif
+#if SHIFT_SMOOTHS
+    uneven = make_vector(smooth.x[k], smooth.y[k], smooth.z[k]);
+#endif
+    around[AROUND_CONCENTRATION * stride + i] = uneven.x;
+    around[(AROUND_CONCENTRATION + 1) * stride + i] = uneven.y;
+    around[(AROUND_CONCENTRATION + 2) * stride + i] = uneven.z;
+    around[AROUND_APPROACH * stride + i] = sqrt(approach[k]);
+#endif
+  }
+}

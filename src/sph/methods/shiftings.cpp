@@ -1,0 +1,41 @@
+#include <cmath>
+
+#include "method.h"
+
+namespace wavetank {
+namespace {
+
+using Source = ParameterSource;
+
+/// W(Δx) of W = α (1−q/2)⁴ (1+2q), in α.
+double kernel_at_spacing(const Source& s) {
+  const double q = s.discretisation.spacing / s.discretisation.smoothing_length;
+  return std::pow(1 - 0.5 * q, 4) * (1 + 2 * q);
+}
+
+/// α, per m^d.
+double kernel_scale(const Source& s) {
+  const double h = s.discretisation.smoothing_length, pi = std::acos(-1.0);
+  return s.discretisation.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
+}
+
+}  // namespace
+
+Method shifting_of(const Case& scene) {
+  const Shifting law = scene.numerics.shifting;
+  Method method{"shifting", word_of(law)};
+  if (law == Shifting::none) return method;
+  method.fields = {{ParticleArray::state, {"shift_x", "shift_y", "shift_z"}, "m/s", "δu, found at a step's start and held throughout"}};
+  method.parameters = {
+      {"expected_speed", "m/s", "greatest one expected", [](const Source& s) { return s.scene.numerics.expected_speed.value(); }},
+      {"inverse_kernel_at_spacing", "m^d", "1/W(Δx)", [](const Source& s) { return 1 / (kernel_scale(s) * kernel_at_spacing(s)); }},
+      {"tensile", "", "factor of (W/W(Δx))⁴ in the concentration's gradient far from walls",
+       [](const Source& s) { return s.scene.numerics.tensile == Tensile::plain ? 0.0 : 0.2; }}};
+  method.reports = {{"shift", ReportRow::Kind::greatest, "m/s", "greatest |δu|",
+                     "state[FIELD_SHIFT_X * stride + i] * state[FIELD_SHIFT_X * stride + i] + state[FIELD_SHIFT_Y * stride + i] * "
+                     "state[FIELD_SHIFT_Y * stride + i] + state[FIELD_SHIFT_Z * stride + i] * state[FIELD_SHIFT_Z * stride + i]",
+                     "sqrt(greatest)"}};
+  return method;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,253 @@
+// free_flows: flows without walls of the particle shifting paper, by any scheme and shifting law; prints a table of what happens in time.
+//   free_flows FLOW WORD=VALUE...
+// FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
+// Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows (10),
+// alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision; and any of the case's method words as KEY=WORD:
+// scheme, shifting, tensile, integrator, equation_of_state (cole), density_diffusion.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "../common/box_case.h"
+#include "../sph/state_bytes.h"
+#include "wavetank/common/error.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/scene/case_reader.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+using Words = std::map<std::string, std::string>;
+
+double number(const Words& words, const std::string& name, double otherwise) {
+  const auto found = words.find(name);
+  return found == words.end() ? otherwise : std::stod(found->second);
+}
+
+template <class Choice>
+void choose(const Words& words, const std::string& name, Choice& value) {
+  const auto found = words.find(name);
+  if (found == words.end()) return;
+  for (const MethodWord<Choice>& known : method_words<Choice>())
+    if (found->second == known.word) {
+      value = known.choice;
+      return;
+    }
+  throw Error(name + " is " + found->second + ", which is no word of that key");
+}
+
+class Flow {
+ public:
+  explicit Flow(const Words& words) : n(static_cast<int>(number(words, "n", 50))), drift(number(words, "drift", 0)) {
+    spacing = 1.0 / n;
+    reynolds = number(words, "reynolds", 0);
+  }
+  virtual ~Flow() = default;
+  virtual Vector3d velocity(const Vector3d& place) const = 0;
+  virtual double pressure(const Vector3d& place) const = 0;  ///< Pa, at the start
+  virtual double greatest_speed() const = 0;
+  virtual bool is_periodic() const = 0;
+
+  int n;
+  double drift, spacing, reynolds;
+};
+
+class TaylorGreen final : public Flow {
+ public:
+  using Flow::Flow;
+  Vector3d velocity(const Vector3d& x) const override {
+    return {std::sin(2 * pi * x.x()) * std::cos(2 * pi * x.z()) + drift, 0, -std::cos(2 * pi * x.x()) * std::sin(2 * pi * x.z())};
+  }
+  double pressure(const Vector3d& x) const override { return 250 * (std::cos(4 * pi * x.x()) + std::cos(4 * pi * x.z())); }
+  double greatest_speed() const override { return 1; }
+  bool is_periodic() const override { return true; }
+};
+
+class TurningSquare final : public Flow {
+ public:
+  using Flow::Flow;
+  Vector3d velocity(const Vector3d& x) const override { return {x.z() - 2, 0, -(x.x() - 2)}; }
+  double pressure(const Vector3d& x) const override {
+    double sum = 0;
+    for (int m = 1; m < 60; m += 2)
+      for (int k = 1; k < 60; k += 2)
+        sum -= 32 / (m * k * pi * pi) / ((m * pi) * (m * pi) + (k * pi) * (k * pi)) * std::sin(m * pi * (x.x() - 1.5)) *
+               std::sin(k * pi * (x.z() - 1.5));
+    return 1000 * sum;
+  }
+  double greatest_speed() const override { return std::sqrt(0.5); }
+  bool is_periodic() const override { return false; }
+};
+
+/// Pairs of particles closer than half a spacing, in a periodic square of side 1 or without ends.
+int close_pairs(const FluidState& fluid, double spacing, bool periodic) {
+  std::map<std::pair<int, int>, std::vector<Vector3d>> cells;
+  const int n = static_cast<int>(std::floor(1 / spacing));
+  const auto wrapped = [&](int k) { return periodic ? (k % n + n) % n : k; };
+  const auto cell = [&](double x) { return static_cast<int>(std::floor(periodic ? (x - std::floor(x)) * n : x * n)); };
+  int pairs = 0;
+  for (const Vector3d& place : fluid.position) {
+    const int i = cell(place.x()), k = cell(place.z());
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b) {
+        const auto found = cells.find({wrapped(i + a), wrapped(k + b)});
+        if (found == cells.end()) continue;
+        for (const Vector3d& other : found->second) {
+          Vector3d way = place - other;
+          if (periodic) way -= Vector3d(std::round(way.x()), 0, std::round(way.z()));
+          if (way.norm() < 0.5 * spacing) ++pairs;
+        }
+      }
+    cells[{wrapped(i), wrapped(k)}].push_back(place);
+  }
+  return pairs;
+}
+
+template <class Real>
+void run(const Flow& flow, const Words& words, Precision precision) {
+  const double side = flow.is_periodic() ? 1 : 4, sound_speed = number(words, "sound", 10) * flow.greatest_speed();
+  Case scene = box_case(Vector3d(side, 0, side), side, flow.spacing);
+  scene.gravity = Vector3d::Zero();
+  scene.tank.periodic = {flow.is_periodic(), false, flow.is_periodic()};
+  scene.tank.splash_guard = false;
+  scene.fluid.sound_speed = sound_speed;
+  scene.fluid.viscosity = flow.reynolds > 0 ? 1000 / flow.reynolds : 0;
+  NumericsCase& numerics = scene.numerics;
+  numerics.precision = precision;
+  numerics.negative_pressure = NegativePressure::allowed;
+  numerics.equation_of_state = EquationOfState::cole;
+  numerics.integrator = Integrator::runge_kutta_4;
+  numerics.courant = 1.5;
+  choose(words, "scheme", numerics.scheme);
+  const bool riemann = numerics.scheme != Scheme::delta_sph;
+  numerics.density_diffusion = riemann ? DensityDiffusion::none : DensityDiffusion::antuono;
+  numerics.artificial_viscosity = riemann || flow.reynolds > 0 ? 0 : number(words, "alpha", 0.01);
+  choose(words, "integrator", numerics.integrator);
+  choose(words, "equation_of_state", numerics.equation_of_state);
+  choose(words, "density_diffusion", numerics.density_diffusion);
+#ifdef WITH_SHIFTING
+  choose(words, "shifting", numerics.shifting);
+  choose(words, "tensile", numerics.tensile);
+  numerics.expected_speed = flow.greatest_speed();
+#endif
+
+  Layout layout;
+  layout.spacing = flow.spacing;
+  layout.domain = {Vector3d::Zero(), Vector3d(side, 0, side)};
+  layout.open_top = false;
+  const double corner = 0.5 * (side - 1);
+  for (int i = 0; i < flow.n; ++i)
+    for (int k = 0; k < flow.n; ++k)
+      layout.particles.emplace_back(corner + (i + 0.5) * flow.spacing, 0, corner + (k + 0.5) * flow.spacing);
+  layout.volumes.assign(layout.particles.size(), flow.spacing * flow.spacing);
+  layout.levels.assign(layout.particles.size(), side);
+  scene = settled(scene, layout);
+  const Discretisation d = discretise(scene, layout);
+  const compute::Device device(compute::choose_device("auto"));
+  const auto solver = make_solver(device, scene, layout, d, {Vector3d::Zero()});
+  solver->start();
+  StateBytes<Real> state(*solver);
+  const bool linear = numerics.equation_of_state == EquationOfState::linear;
+  for (std::size_t i = 0; i < state.count; ++i) {
+    const Vector3d place = layout.particles[i], velocity = flow.velocity(place);
+    const double head = flow.pressure(place) / (1000 * sound_speed * sound_speed);
+    const double compression = linear ? head : std::pow(1 + 7 * head, 1 / 7.0) - 1, volume = flow.spacing * flow.spacing;
+    state.set("u", i, velocity.x());
+    state.set("w", i, velocity.z());
+    state.set("compression", i, compression);
+    state.set("pressure", i, flow.pressure(place));
+    state.set("volume", i, volume);
+    state.set("mass", i, 1000 * (1 + compression) * volume);
+  }
+  solver->restore(state.bytes());
+  double step = 0.75 * d.smoothing_length / (sound_speed);
+  if (flow.reynolds > 0) step = std::min(step, 0.025 * d.support * d.support * flow.reynolds);
+  step *= number(words, "step", 1);
+  solver->limit_time_step(step);
+  solver->shorten_step(step);
+
+  const double end = number(words, "end", 0.4);
+  const int steps = static_cast<int>(std::round(end / step)), rows = static_cast<int>(number(words, "rows", 10));
+  const auto kinetic = [&](const FluidState& fluid) {
+    double sum = 0;
+    for (std::size_t i = 0; i < fluid.id.size(); ++i)
+      sum += 0.5 * fluid.mass[i] * (fluid.velocity[i] - Vector3d(flow.drift, 0, 0)).squaredNorm();
+    return sum;
+  };
+  double first = 0, start_volume = 0, start_mass = 0, shift = 0, shift_sum = 0;
+  int shift_count = 0;
+  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error", "dV/V", "dm/m",
+              "V least", "V most", "close");
+  for (int k = 0; k <= steps; ++k) {
+    if (k % std::max(1, steps / rows) == 0 || k == steps) {
+      const FluidState fluid = solver->download();
+      const double energy = kinetic(fluid);
+      double volume = 0, mass = 0, least = 1e9, most = 0, square = 0, error = 0, speed = 0;
+      for (std::size_t i = 0; i < fluid.id.size(); ++i) {
+        const double own = fluid.mass[i] / (1000 * (1 + fluid.compression[i])), relative = own / (flow.spacing * flow.spacing);
+        volume += own;
+        mass += fluid.mass[i];
+        least = std::min(least, relative);
+        most = std::max(most, relative);
+        square += std::pow(fluid.pressure[i] / 1000, 2);
+        Vector3d at = fluid.position[i];
+        at.x() -= flow.drift * k * step;
+        error += std::pow((fluid.pressure[i] - flow.pressure(at)) / 1000, 2);
+        speed = std::max(speed, (fluid.velocity[i] - Vector3d(flow.drift, 0, 0)).norm());
+      }
+      if (k == 0) {
+        first = energy;
+        start_volume = volume;
+        start_mass = mass;
+      }
+      const double count = static_cast<double>(fluid.id.size());
+      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d\n", k * step, energy / first, speed, shift,
+                  shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count), volume / start_volume - 1,
+                  mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()));
+      std::fflush(stdout);
+      shift_sum = 0;
+      shift_count = 0;
+    }
+    if (k == steps) break;
+    const StepReport report = solver->advance();
+    if (!report.valid()) throw Error("the run is lost at t = " + std::to_string(k * step));
+    const auto found = report.more.find("shift");
+    shift = found == report.more.end() ? 0 : found->second;
+    shift_sum += shift;
+    ++shift_count;
+  }
+}
+
+}  // namespace
+}  // namespace wavetank
+
+int main(int count, char** arguments) {
+  using namespace wavetank;
+  try {
+    const std::string name = count > 1 ? arguments[1] : "";
+    Words words;
+    for (int k = 2; k < count; ++k) {
+      const std::string word = arguments[k];
+      const auto sign = word.find('=');
+      if (sign == std::string::npos) throw Error(word + " is no WORD=VALUE");
+      words[word.substr(0, sign)] = word.substr(sign + 1);
+    }
+    std::unique_ptr<Flow> flow;
+    if (name == "taylor_green") flow = std::make_unique<TaylorGreen>(words);
+    if (name == "square") flow = std::make_unique<TurningSquare>(words);
+    if (flow == nullptr) throw Error("the flow is '" + name + "'; it must be taylor_green or square");
+    if (words.count("precision") != 0 && words.at("precision") == "double")
+      run<double>(*flow, words, Precision::double_);
+    else
+      run<float>(*flow, words, Precision::single);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "free_flows: %s\n", failure.what());
+    return 1;
+  }
+  return 0;
+}
