@@ -61,6 +61,15 @@ Section<FluidCase> fluid_section() {
       .required = true;
   section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions.").required =
       true;
+  Section<InitialCase> initial;
+  initial.key("u", &InitialCase::u, expression(), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
+  initial.key("v", &InitialCase::v, expression(), "m/s", "Along y; not used in 2-D.");
+  initial.key("w", &InitialCase::w, expression(), "m/s", "Along z.");
+  initial.key("pressure", &InitialCase::pressure, expression(), "Pa", "Gauge pressure, instead of the hydrostatic one.");
+  section.key("initial", &FluidCase::initial, section_of(initial), "",
+              "Velocity and pressure at the start, after packing and settling: expressions of x, y, z (m), with pi and the usual "
+              "functions. What is not "
+              "given is at rest and hydrostatic.");
   section.exactly_one_of({{"spacing"}, {"particles"}});
   section.rule([](const FluidCase& fluid, const Setting& map, const std::string& path, const Context&) {
     if (fluid.fill.empty()) refuse(*map.find("fill"), {join_path(path, "fill"), ""}, "a list of at least one region");

@@ -50,8 +50,11 @@ const std::vector<MethodWord<Shifting>>& method_words() {
 
 template <>
 const std::vector<MethodWord<Tensile>>& method_words() {
-  static const std::vector<MethodWord<Tensile>> words{{Tensile::hybrid, "hybrid", "farther from walls than the support"},
-                                                      {Tensile::plain, "plain", "nowhere"}};
+  static const std::vector<MethodWord<Tensile>> words{
+      {Tensile::hybrid, "hybrid", "farther from walls than the support, so that water rests at walls"},
+      {Tensile::plain, "plain", "nowhere"},
+      {Tensile::consistent, "consistent", "everywhere, with the walls' part that balances the water's"},
+      {Tensile::printed, "printed", "everywhere, with the walls' part as the particle shifting paper prints it, which presses on walls"}};
   return words;
 }
 

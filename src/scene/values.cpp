@@ -6,6 +6,8 @@
 #include <regex>
 #include <sstream>
 
+#include "wavetank/common/expression.h"
+
 namespace wavetank::scene {
 namespace {
 
@@ -242,6 +244,24 @@ Codec<std::string> nonempty_text() {
   codec.read = [](const Setting& setting, const Item& item, Context&) {
     if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "text that is not empty");
     return setting.text;
+  };
+  return codec;
+}
+
+Codec<std::string> expression() {
+  Codec<std::string> codec = text();
+  codec.type = "expression";
+  codec.read = [](const Setting& setting, const Item& item, Context&) {
+    if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "an expression of x, y and z");
+    try {
+      Expression(setting.text);
+    } catch (const Error& wrong) {
+      throw Error(setting.place.describe() + ": " + item.path + ": " + wrong.what());
+    }
+    return setting.text;
+  };
+  codec.write = [](const std::string& value, const Context&) {
+    return value.empty() ? std::nullopt : std::optional<Setting>(Setting::string(value));
   };
   return codec;
 }

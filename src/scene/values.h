@@ -84,6 +84,7 @@ Codec<int> dimension_count();  ///< 2 or 3, and tells the context
 Codec<bool> flag();
 Codec<std::string> text();  ///< any, also empty
 Codec<std::string> nonempty_text();
+Codec<std::string> expression();    ///< of x, y and z; empty: not given
 Codec<std::string> name();          ///< of a body, probe or gauge: part of a topic's name
 Codec<std::string> frame();         ///< of tf
 Codec<Vector3d> vector();           ///< 3 numbers; in 2-D also [x, z]

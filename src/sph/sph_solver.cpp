@@ -152,6 +152,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   }
   up_ = layout.up;
   levels_ = layout.levels;
+  volumes_ = layout.volumes;
   state_.upload(state);
   id_.upload(id);
   kernels_.derive.launch(count_);
@@ -277,9 +278,9 @@ void SphSolver<Real>::find_compression_rates(Slot state) {
 
 template <class Real>
 void SphSolver<Real>::find_rates(Slot state) {
-  find_accelerations(state);
-  if (!accelerates_by_gradients_) find_gradients(state);
-  kernels_.continuity[state].launch(count_);
+  find_gradients(state);
+  load_walls(state);
+  kernels_.rates[state].launch(count_);
 }
 
 template <class Real>

@@ -84,6 +84,10 @@ class SphSolver final : public Solver, private StepEngine {
   void set_hydrostatic();
   /// Zero velocities, and all that follows from the positions and compressions.
   StepReport start_at_rest();
+  /// With the velocities and pressures that the case gives, if any.
+  StepReport start_as_given();
+  /// What follows from the state.
+  StepReport start_from_state();
   WallArrays<Real> make_supported_walls() const;
 
   void walls_at(double fraction) override;
@@ -119,7 +123,7 @@ class SphSolver final : public Solver, private StepEngine {
   void describe_offender(StepReport& report, int first) const;
 
   struct Kernels {
-    std::map<Slot, BoundSweep> continuity, momentum, gradients, loads;
+    std::map<Slot, BoundSweep> continuity, momentum, rates, gradients, loads;
     BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
@@ -168,6 +172,7 @@ class SphSolver final : public Solver, private StepEngine {
   double fastest_wall_ = 0;                ///< of any point of a body, m/s
   Eigen::Vector3d up_;                     ///< along which the start is hydrostatic
   std::vector<double> levels_;             ///< by particle id, for that: heights along `up_`
+  std::vector<double> volumes_;            ///< likewise: what each was given of the water's volume, m³
   Buffer state_, rates_, gradient_;
   Buffer half_;  ///< the trial state of the step, its middle or end; then what the state is sorted into
   Buffer sum_;   ///< of weighted rates, for integrators that have one

@@ -39,6 +39,7 @@ void SphSolver<Real>::bind_sweeps() {
     compute::Arguments writes = of_state;
     kernels_.continuity[slot] = make_->over_particles("continuity.cl", "continuity", writes.memory("rates", rates_));
     kernels_.momentum[slot] = make_->over_particles("momentum.cl", "momentum", writes);
+    kernels_.rates[slot] = make_->over_particles("rates.cl", "rates_of_state", writes);
     writes = of_state;
     kernels_.gradients[slot] = make_->over_particles("gradients.cl", "gradients", writes.memory("gradient", gradient_));
     writes = of_state;

@@ -1,29 +1,76 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/expression.h"
 
 namespace wavetank {
+namespace {
+
+/// The compression at which the water has a pressure, in ρ₀ c₀².
+double compression_at(double head, const Case& scene) {
+  return scene.numerics.equation_of_state == EquationOfState::cole ? std::pow(std::max(1.0 + 7.0 * head, 0.0), 1.0 / 7.0) - 1.0 : head;
+}
+
+double finite_at(const Expression& expression, const Eigen::Vector3d& place, const std::string& key) {
+  const double value = expression.at(place);
+  if (std::isfinite(value)) return value;
+  char text[120];
+  std::snprintf(text, sizeof text, "%g, %g, %g", place.x(), place.y(), place.z());
+  throw Error("fluid/initial/" + key + " is not finite at (" + text + ") m, where there is water at the start.");
+}
+
+}  // namespace
+
 template <class Real>
 StepReport SphSolver<Real>::start() {
   set_hydrostatic();
-  return start_at_rest();
+  start_at_rest();
+  return start_as_given();
+}
+
+template <class Real>
+StepReport SphSolver<Real>::start_as_given() {
+  const InitialCase& initial = case_.fluid.initial;
+  const std::string* const velocity[3] = {&initial.u, &initial.v, &initial.w};
+  std::vector<Real> state = state_.download();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (velocity[axis]->empty() || (case_.dimensions == 2 && axis == 1)) continue;
+    const Expression expression(*velocity[axis]);
+    for (int i = 0; i < count_; ++i)
+      state[(first_.velocity + axis) * stride_ + i] =
+          static_cast<Real>(finite_at(expression, place_of(state, i), std::string(1, "uvw"[axis])));
+  }
+  if (!initial.pressure.empty()) {
+    // of water that fills the volume that each particle was given
+    const Expression expression(initial.pressure);
+    const double stiffness = case_.fluid.density * discretisation_.sound_speed * discretisation_.sound_speed;
+    const std::vector<std::uint32_t> id = id_.download();
+    for (int i = 0; i < count_; ++i) {
+      const double compression = compression_at(finite_at(expression, place_of(state, i), "pressure") / stiffness, case_);
+      const double volume = volumes_[id[i]];
+      component(state, "compression")[i] = static_cast<Real>(compression);
+      component(state, "volume")[i] = static_cast<Real>(volume);
+      component(state, "mass")[i] = static_cast<Real>(case_.fluid.density * (1 + compression) * volume);
+    }
+  }
+  state_.upload(state);
+  return start_from_state();
 }
 
 template <class Real>
 void SphSolver<Real>::set_hydrostatic() {
   // below the free surface that the particle was filled under
+  const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
   std::vector<Real> state = state_.download();
   const std::vector<std::uint32_t> id = id_.download();
-  const double c2 = discretisation_.sound_speed * discretisation_.sound_speed;
   const double g = -case_.gravity.dot(up_);
   Real* const compressions = component(state, "compression");
   for (int i = 0; i < count_; ++i) {
-    const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;  // p/(ρ₀c₀²)
-    const double compression =
-        case_.numerics.equation_of_state == EquationOfState::cole ? std::pow(1.0 + 7.0 * head, 1.0 / 7.0) - 1.0 : head;
-    compressions[i] = static_cast<Real>(compression);
+    const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;
+    compressions[i] = static_cast<Real>(compression_at(head, case_));
   }
   for (const FieldRow& row : fields_.rows())
     if (row.evolution == FieldRow::Evolution::follower)
@@ -41,6 +88,11 @@ StepReport SphSolver<Real>::start_at_rest() {
     if (shifts()) std::fill_n(state.begin() + (fields_.at(ParticleArray::state, "shift_x") + axis) * stride_, stride_, Real(0));
   }
   state_.upload(state);
+  return start_from_state();
+}
+
+template <class Real>
+StepReport SphSolver<Real>::start_from_state() {
   kernels_.derive.launch(count_);
   find_accelerations(Slot::now);
   find_compression_rates(Slot::now);
@@ -61,9 +113,10 @@ WallArrays<Real> SphSolver<Real>::make_supported_walls() const {
 
 template <class Real>
 StepReport SphSolver<Real>::settle(double periods, const std::function<void(double)>& progress) {
-  StepReport report = start();
   const double duration = periods * discretisation_.sound_period;
-  if (duration == 0) return report;
+  if (duration == 0) return start();
+  set_hydrostatic();
+  StepReport report = start_at_rest();
   WallArrays<Real> supported = make_supported_walls();
 
   ParameterBlock damped = *values_;
@@ -102,7 +155,9 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
     throw;
   }
   end_settling();
-  return may_go_on() ? start_at_rest() : report;
+  if (!may_go_on()) return report;
+  start_at_rest();
+  return start_as_given();
 }
 
 template <class Real>

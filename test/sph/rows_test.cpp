@@ -130,5 +130,64 @@ TEST(IntegratorRow, IsCheckedWhenTheSolverIsMade) {
   EXPECT_EQ(message, "integrator hasty: stage 'to the end' reads sum of rates (step), which no stage before it has written.");
 }
 
+/// Water whose pairs push each other with a constant pressure, and whose density does not change.
+const char* const constant_pressure = R"(
+typedef struct {
+  tile nothing;
+} scheme_own_t;
+
+INLINE scheme_own_t scheme_own(const neighbours_t* n, __global const real* gradient, int first) {
+  const scheme_own_t own = {(tile)(R(0.0))};
+  return own;
+}
+
+typedef struct {
+  tile pressure, divergence;
+} exchange_t;
+
+INLINE exchange_t pair_exchange(const scheme_own_t* own, __constant const parameters_t* p, const neighbours_t* n, __global const real* gradient,
+                                const pair_t* pair) {
+  const exchange_t exchange = {(tile)(p->constant_pressure), (tile)(R(0.0))};
+  return exchange;
+}
+)";
+
+TEST(SchemeRow, IsItsDeviceCodeAndWhatItBrings) {
+  SolverRows rows;
+  rows.methods = [](const Case& scene) {
+    Methods methods = methods_of(scene);
+    methods[0] = {"scheme", "constant_pressure"};
+    methods[0].parameters = {{"constant_pressure", "Pa", "of every pair", [](const ParameterSource&) { return 4000.0; }}};
+    methods[0].code = constant_pressure;
+    return methods;
+  };
+  Case scene = box_case(Vector3d(1, 0, 1), 0.5, 0.05);
+  scene.numerics.precision = Precision::double_;
+  scene.numerics.density_diffusion = DensityDiffusion::none;
+  scene.numerics.artificial_viscosity = 0;
+  scene.fluid.viscosity = 0;
+  scene.gravity = Vector3d::Zero();
+  scene.fluid.sound_speed = 10;
+  const double apart = 0.04, volume = 0.05 * 0.05;
+  const Layout layout =
+      loose_particles({Vector3d::Zero(), Vector3d(1, 0, 1)}, 0.05, {Vector3d(0.5, 0, 0.5), Vector3d(0.5 + apart, 0, 0.5)}, 2);
+  scene = settled(scene, layout);
+  const Discretisation d = discretise(scene, layout);
+  const auto solver = make_solver_of(rows, test_device(), scene, layout, d, {Vector3d::Zero()});
+  solver->start();
+  const double step = solver->shorten_step(1e-4);
+  ASSERT_TRUE(solver->advance().valid());
+  // ρ du/dt = P F r V with F = 5 α/h² (1 − q/2)³, α = 7/(4 π h²)
+  const double h = d.smoothing_length;
+  const double slope = 5 * 7 / (4 * M_PI * h * h) / (h * h) * std::pow(1 - 0.5 * apart / h, 3);
+  const double acceleration = 4000 * slope * apart * volume / 1000;
+  const FluidState fluid = solver->download();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double sign = fluid.id[i] == 0 ? -1 : 1;
+    EXPECT_NEAR(fluid.velocity[i].x(), sign * acceleration * step, 1e-6 * acceleration * step);
+    EXPECT_EQ(fluid.compression[i], 0);
+  }
+}
+
 }  // namespace
 }  // namespace wavetank

@@ -51,16 +51,21 @@ TEST(Schedule, OfEveryIntegratorIsSoundAndKnowsItsDrift) {
   const std::pair<Integrator, double> drifts[] = {
       {Integrator::symplectic, 0.5}, {Integrator::predictor_corrector, 1.0}, {Integrator::runge_kutta_4, 1.0}};
   for (const auto& [integrator, drift] : drifts) {
-    const Schedule schedule = schedule_of(integrator, nullptr);
-    EXPECT_NO_THROW(schedule.check());
-    EXPECT_EQ(schedule.drift(), drift) << schedule.page();
+    Case scene;
+    scene.numerics.integrator = integrator;
+    for (const MethodWord<Shifting>& law : method_words<Shifting>()) {
+      scene.numerics.shifting = law.choice;
+      const Schedule schedule = schedule_of(scene, nullptr);
+      EXPECT_NO_THROW(schedule.check());
+      EXPECT_EQ(schedule.drift(), drift) << schedule.page();
+    }
   }
 }
 
 TEST(Schedule, IsAPage) {
   const std::string page = schedule_page(Case());
   EXPECT_NE(page.find("One time step of integrator symplectic."), std::string::npos) << page;
-  EXPECT_NE(page.find("3. accelerations\n   reads   position, velocity, compression, steady diffusion, pressure, volume, walls (middle)\n"
+  EXPECT_NE(page.find("3. accelerations\n   reads   position, velocity, compression, followers, pressure, volume, walls (middle)\n"
                       "   writes  acceleration, clearance (middle)\n"),
             std::string::npos)
       << page;

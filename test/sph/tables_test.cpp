@@ -11,6 +11,16 @@ namespace {
 
 constexpr ParticleArray state = ParticleArray::state, rates = ParticleArray::rates;
 
+TEST(FieldTable, AddsRatesAndSumsOfWhatEvolves) {
+  const FieldTable fields({{ParticleArray::state, {"salt"}, "kg", "dissolved", true, FieldRow::Evolution::conjugate},
+                           {ParticleArray::state, {"heat"}, "", "of it", true, FieldRow::Evolution::follower}});
+  EXPECT_EQ(fields.header(),
+            "#define FIELD_SALT 0  // dissolved, kg\n#define FIELD_HEAT 1  // of it\n#define FIELD_COUNT 2\n"
+            "#define RATE_SALT 0  // of change, kg/s\n#define RATE_HEAT 1  // of change, 1/s\n#define RATE_COUNT 2\n"
+            "#define SUM_SALT 0  // of weighted rates of change, kg/s\n#define SUM_HEAT 1  // of weighted rates of change, 1/s\n"
+            "#define SUM_COUNT 2\n#define EACH_CONJUGATE(DO) DO(SALT)\n#define EACH_FOLLOWER(DO) DO(HEAT)\n");
+}
+
 TEST(FieldTable, GivesEachComponentItsPlaceInItsArray) {
   const FieldTable fields({{state, {"x", "z"}, "m", "place"}, {rates, {"x"}, "m/s", "its rate"}, {state, {"salt"}, "", "dissolved"}});
   EXPECT_EQ(fields.at(state, "x"), 0);
@@ -21,7 +31,7 @@ TEST(FieldTable, GivesEachComponentItsPlaceInItsArray) {
   EXPECT_EQ(fields.count(rates), 1);
   EXPECT_EQ(fields.header(),
             "#define FIELD_X 0  // place, m\n#define FIELD_Z 1  // place, m\n#define FIELD_SALT 2  // dissolved\n#define FIELD_COUNT 3\n"
-            "#define RATE_X 0  // its rate, m/s\n#define RATE_COUNT 1\n#define SUM_COUNT 0\n");
+            "#define RATE_X 0  // its rate, m/s\n#define RATE_COUNT 1\n#define SUM_COUNT 0\n#define EACH_CONJUGATE(DO)\n#define EACH_FOLLOWER(DO)\n");
 }
 
 TEST(FieldTable, RefusesNamesThatAreTakenOrUnknown) {

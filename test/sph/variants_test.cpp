@@ -1,7 +1,8 @@
 // Every value of every option builds and runs: each pair of values of two options at least once in 2-D, each value in 3-D.
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "sph_fixture.h"
@@ -9,61 +10,103 @@
 namespace wavetank {
 namespace {
 
-constexpr int option_count = 7;
-constexpr int value_count[option_count] = {3, 2, 2, 2, 2, 2, 3};
+/// A key of the case, and how it is given each of its values.
+struct Option {
+  std::string name;
+  std::vector<std::pair<std::string, std::function<void(NumericsCase&)>>> values;
+};
 
-/// One value an option: density diffusion, equation of state, viscosity model, slip, negative pressure, precision, wall elements.
-using Choice = std::array<int, option_count>;
+template <class Choice>
+Option option_of(const std::string& name, Choice NumericsCase::*member) {
+  Option option{name, {}};
+  for (const MethodWord<Choice>& known : method_words<Choice>())
+    option.values.emplace_back(known.word, [member, choice = known.choice](NumericsCase& numerics) { numerics.*member = choice; });
+  return option;
+}
+
+template <class Value>
+Option walls_option(const std::string& name, Value WallCase::*member, const std::vector<std::pair<std::string, Value>>& values) {
+  Option option{name, {}};
+  for (const auto& [word, value] : values)
+    option.values.emplace_back(word, [member, value = value](NumericsCase& numerics) { numerics.walls.*member = value; });
+  return option;
+}
+
+/// Every word of every key by which a case chooses its method, and what else kernels are compiled for.
+const std::vector<Option>& options() {
+  static const std::vector<Option> all{
+      option_of("scheme", &NumericsCase::scheme),
+      option_of("shifting", &NumericsCase::shifting),
+      option_of("density_diffusion", &NumericsCase::density_diffusion),
+      option_of("integrator", &NumericsCase::integrator),
+      walls_option<WallElements>(
+          "elements", &WallCase::elements,
+          {{"numerical", WallElements::numerical}, {"semi_analytical", WallElements::semi_analytical}, {"facet", WallElements::facet}}),
+      option_of("equation_of_state", &NumericsCase::equation_of_state),
+      option_of("viscosity_model", &NumericsCase::viscosity_model),
+      option_of("tensile", &NumericsCase::tensile),
+      walls_option<Slip>("slip", &WallCase::slip, {{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}),
+      {"negative_pressure",
+       {{"allowed", [](NumericsCase& numerics) { numerics.negative_pressure = NegativePressure::allowed; }},
+        {"clamped", [](NumericsCase& numerics) { numerics.negative_pressure = NegativePressure::clamped; }}}},
+      {"precision",
+       {{"single", [](NumericsCase& numerics) { numerics.precision = Precision::single; }},
+        {"double", [](NumericsCase& numerics) { numerics.precision = Precision::double_; }}}}};
+  return all;
+}
+
+/// A value of each option.
+using Choice = std::vector<int>;
 
 Case with(Case scene, const Choice& choice) {
-  NumericsCase& numerics = scene.numerics;
-  numerics.density_diffusion = static_cast<DensityDiffusion>(choice[0]);
-  numerics.equation_of_state = static_cast<EquationOfState>(choice[1]);
-  numerics.viscosity_model = static_cast<ViscosityModel>(choice[2]);
-  numerics.walls.slip = static_cast<Slip>(choice[3]);
-  numerics.negative_pressure = static_cast<NegativePressure>(choice[4]);
-  numerics.precision = static_cast<Precision>(choice[5]);
-  numerics.walls.elements = static_cast<WallElements>(choice[6]);
+  for (std::size_t k = 0; k < choice.size(); ++k) options()[k].values[choice[k]].second(scene.numerics);
   return scene;
 }
 
 std::string describe(const Choice& choice) {
-  std::ostringstream text;
-  text << "diffusion " << choice[0] << ", state " << choice[1] << ", viscosity " << choice[2] << ", slip " << choice[3]
-       << ", negative pressure " << choice[4] << ", precision " << choice[5] << ", elements " << choice[6];
-  return text.str();
+  std::string text;
+  for (std::size_t k = 0; k < choice.size(); ++k)
+    text += (k == 0 ? "" : ", ") + options()[k].name + " " + options()[k].values[choice[k]].first;
+  return text;
 }
 
 /// Pairs of values of two options, as (option, value, option, value).
 using Pair = std::array<int, 4>;
 
-std::set<Pair> pairs_of(const Choice& choice) {
-  std::set<Pair> pairs;
-  for (int a = 0; a < option_count; ++a)
-    for (int b = a + 1; b < option_count; ++b) pairs.insert({a, choice[a], b, choice[b]});
-  return pairs;
-}
-
-/// Few choices that hold every pair of values: the greedy cover of all choices.
+/// Few choices that hold every pair of values of two options: each begins with a pair that is still missing, and goes on, option by option,
+/// with the value that brings most others.
 std::vector<Choice> covering_choices() {
-  std::vector<Choice> all(1, Choice{});
-  for (int option = 0; option < option_count; ++option) {
-    std::vector<Choice> longer;
-    for (Choice choice : all)
-      for (choice[option] = 0; choice[option] < value_count[option]; ++choice[option]) longer.push_back(choice);
-    all = longer;
-  }
+  const int count = static_cast<int>(options().size());
+  const auto size = [](int option) { return static_cast<int>(options()[option].values.size()); };
   std::set<Pair> missing;
-  for (const Choice& choice : all) missing.merge(pairs_of(choice));
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b)
+      for (int x = 0; x < size(a); ++x)
+        for (int y = 0; y < size(b); ++y) missing.insert({a, x, b, y});
+  const auto pair = [](int a, int x, int b, int y) { return a < b ? Pair{a, x, b, y} : Pair{b, y, a, x}; };
   std::vector<Choice> cover;
   while (!missing.empty()) {
-    const auto gain = [&](const Choice& choice) {
-      const std::set<Pair> pairs = pairs_of(choice);
-      return std::count_if(pairs.begin(), pairs.end(), [&](const Pair& pair) { return missing.count(pair) != 0; });
-    };
-    const Choice best = *std::max_element(all.begin(), all.end(), [&](const Choice& a, const Choice& b) { return gain(a) < gain(b); });
-    for (const Pair& pair : pairs_of(best)) missing.erase(pair);
-    cover.push_back(best);
+    const Pair first = *missing.begin();
+    Choice choice(count, -1);
+    choice[first[0]] = first[1];
+    choice[first[2]] = first[3];
+    for (int option = 0; option < count; ++option) {
+      if (choice[option] >= 0) continue;
+      int best = 0, most = -1;
+      for (int value = 0; value < size(option); ++value) {
+        int gain = 0;
+        for (int other = 0; other < count; ++other)
+          if (choice[other] >= 0 && missing.count(pair(option, value, other, choice[other])) != 0) ++gain;
+        if (gain > most) {
+          most = gain;
+          best = value;
+        }
+      }
+      choice[option] = best;
+    }
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) missing.erase({a, choice[a], b, choice[b]});
+    cover.push_back(choice);
   }
   return cover;
 }
@@ -79,8 +122,10 @@ void runs_three_steps(const Case& scene) {
   const FluidState fluid = tank.solver->download();
   EXPECT_TRUE(all_finite(fluid));
   const double mass = scene.fluid.density * total(tank.layout.volumes);
-  EXPECT_NEAR(total(fluid.mass), mass, 1e-6 * mass);
-  EXPECT_NEAR(tank.solver->energies().mass, mass, 1e-6 * mass);
+  // where volumes evolve, the mass at the start is that of the volume under the hydrostatic pressure
+  const double tolerance = scene.numerics.scheme == Scheme::riemann_ale ? 0.02 : 1e-6;
+  EXPECT_NEAR(total(fluid.mass), mass, tolerance * mass);
+  EXPECT_NEAR(tank.solver->energies().mass, total(fluid.mass), 1e-6 * mass);
   double moved = 0;
   for (const Vector3d& velocity : fluid.velocity) moved = std::max(moved, velocity.norm());
   EXPECT_GT(moved, 0.0) << "three steps in which nothing moved";
@@ -121,8 +166,13 @@ TEST(Variants, EveryKindOfWallRuns) {
       }
 }
 
-TEST(Variants, EveryOptionRunsIn3D) {
-  for (const Choice& choice : {Choice{0, 1, 0, 1, 0, 1}, Choice{2, 0, 1, 0, 1, 0}, Choice{1, 1, 1, 1, 0, 0}}) {
+/// Every value once: the k-th of each option, as far as it has so many.
+TEST(Variants, EveryValueRunsIn3D) {
+  std::size_t most = 0;
+  for (const Option& option : options()) most = std::max(most, option.values.size());
+  for (std::size_t k = 0; k < most; ++k) {
+    Choice choice;
+    for (const Option& option : options()) choice.push_back(static_cast<int>(k % option.values.size()));
     const Case scene = with(column(Vector3d(0.4, 0.2, 0.6), 0.05), choice);
     if (!has_precision(scene.numerics.precision)) continue;
     SCOPED_TRACE(describe(choice));

@@ -1,9 +1,10 @@
 // free_flows: flows without walls of the particle shifting paper, by any scheme and shifting law; prints a table of what happens in time.
 //   free_flows FLOW WORD=VALUE...
 // FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
-// Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows (10),
-// alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision; and any of the case's method words as KEY=WORD:
-// scheme, shifting, tensile, integrator, equation_of_state (cole), density_diffusion.
+// Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows
+// (10), alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision; and any of the case's method
+// words as KEY=WORD: scheme, shifting, tensile, integrator, equation_of_state (cole), density_diffusion. c₀ and lengths make the rest: Δt =
+// 0.75 h/c₀, times `step`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -130,11 +131,9 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   choose(words, "integrator", numerics.integrator);
   choose(words, "equation_of_state", numerics.equation_of_state);
   choose(words, "density_diffusion", numerics.density_diffusion);
-#ifdef WITH_SHIFTING
   choose(words, "shifting", numerics.shifting);
   choose(words, "tensile", numerics.tensile);
   numerics.expected_speed = flow.greatest_speed();
-#endif
 
   Layout layout;
   layout.spacing = flow.spacing;
@@ -142,8 +141,7 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   layout.open_top = false;
   const double corner = 0.5 * (side - 1);
   for (int i = 0; i < flow.n; ++i)
-    for (int k = 0; k < flow.n; ++k)
-      layout.particles.emplace_back(corner + (i + 0.5) * flow.spacing, 0, corner + (k + 0.5) * flow.spacing);
+    for (int k = 0; k < flow.n; ++k) layout.particles.emplace_back(corner + (i + 0.5) * flow.spacing, 0, corner + (k + 0.5) * flow.spacing);
   layout.volumes.assign(layout.particles.size(), flow.spacing * flow.spacing);
   layout.levels.assign(layout.particles.size(), side);
   scene = settled(scene, layout);
@@ -181,8 +179,9 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   };
   double first = 0, start_volume = 0, start_mass = 0, shift = 0, shift_sum = 0;
   int shift_count = 0;
-  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error", "dV/V", "dm/m",
-              "V least", "V most", "close");
+  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
+              "dV/V", "dm/m", "V least", "V most", "close", "p centre");
+  const auto centre = solver->make_points({Vector3d(0.5 * side, 0, 0.5 * side)});
   for (int k = 0; k <= steps; ++k) {
     if (k % std::max(1, steps / rows) == 0 || k == steps) {
       const FluidState fluid = solver->download();
@@ -206,9 +205,10 @@ void run(const Flow& flow, const Words& words, Precision precision) {
         start_mass = mass;
       }
       const double count = static_cast<double>(fluid.id.size());
-      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d\n", k * step, energy / first, speed, shift,
-                  shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count), volume / start_volume - 1,
-                  mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()));
+      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d %9.5f\n", k * step, energy / first, speed, shift,
+                  shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count),
+                  volume / start_volume - 1, mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
+                  solver->evaluate(*centre)[0].pressure / 1000);
       std::fflush(stdout);
       shift_sum = 0;
       shift_count = 0;

@@ -37,6 +37,12 @@ struct FloodFill {
 
 using FillRegion = std::variant<Box, FloodFill>;
 
+/// The water's velocity and pressure at the start, each an expression of x, y, z (wavetank::Expression); empty: at rest, and hydrostatic.
+struct InitialCase {
+  std::string u, v, w;   ///< m/s
+  std::string pressure;  ///< Pa
+};
+
 struct FluidCase {
   double density = 1000.0;               ///< kg/m³
   double viscosity = 1.0e-3;             ///< Pa·s, dynamic
@@ -44,6 +50,7 @@ struct FluidCase {
   std::optional<double> spacing;         ///< m; exactly one of spacing and particles is given
   std::optional<std::size_t> particles;  ///< approximate number of fluid particles
   std::vector<FillRegion> fill;          ///< at least one
+  InitialCase initial;
 };
 
 /// A parametric rectangular tank.

@@ -12,7 +12,7 @@ enum class DensityDiffusion { none, fourtakas, antuono };
 enum class EquationOfState { linear, cole };
 enum class ViscosityModel { monaghan_gingold, morris };
 enum class Shifting { none, monaghan, lind, oger, sun, michel };
-enum class Tensile { hybrid, plain };
+enum class Tensile { hybrid, plain, consistent, printed };
 enum class Integrator { symplectic, predictor_corrector, runge_kutta_4 };
 
 template <class Choice>

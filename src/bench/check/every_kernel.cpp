@@ -195,24 +195,51 @@ void run_few(Runs& runs) {
     runs.run(scene, &mover);
   }
   runs.run(column(2));
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.scheme = Scheme::riemann_ale;
+  scene.numerics.shifting = Shifting::michel;
+  Carried mover(3);
+  runs.run(scene, &mover);
+}
+
+/// Every word of every key by which a case chooses its method.
+void run_methods(Runs& runs, int dimensions) {
+  for (const MethodWord<DensityDiffusion>& known : method_words<DensityDiffusion>()) runs.run(column(dimensions, known.choice));
+  Case scene = column(dimensions);
+  for (const MethodWord<Scheme>& known : method_words<Scheme>()) {
+    scene.numerics.scheme = known.choice;
+    scene.numerics.shifting = Shifting::michel;
+    runs.run(scene);
+  }
+  if (dimensions == 3) return;
+  const auto run_each = [&](auto NumericsCase::*key) {
+    Case chosen = column(dimensions);
+    for (const auto& known : method_words<std::decay_t<decltype(chosen.numerics.*key)>>()) {
+      chosen.numerics.*key = known.choice;
+      runs.run(chosen);
+    }
+  };
+  run_each(&NumericsCase::integrator);
+  run_each(&NumericsCase::shifting);
+  run_each(&NumericsCase::equation_of_state);
+  run_each(&NumericsCase::viscosity_model);
 }
 
 void run_all(Runs& runs) {
   for (const int dimensions : {2, 3}) {
-    for (const auto diffusion : {DensityDiffusion::fourtakas, DensityDiffusion::antuono}) runs.run(column(dimensions, diffusion));
+    run_methods(runs, dimensions);
     run_walls(runs, dimensions);
     run_motion(runs, dimensions);
-  }
-  for (const auto integrator : {Integrator::runge_kutta_4, Integrator::predictor_corrector}) {
-    Case scene = column(2);
-    scene.numerics.integrator = integrator;
-    runs.run(scene);
   }
   // tiles of sixteen lanes, which read beyond the last particle
   Case open_water = column(3, DensityDiffusion::antuono);
   open_water.bodies.clear();
   runs.run_wide(open_water);
   runs.run_wide(column(3));  // past the box, which is thin
+  Case shifted = column(3);
+  shifted.numerics.scheme = Scheme::riemann_ale;
+  shifted.numerics.shifting = Shifting::michel;
+  runs.run_wide(shifted);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The accelerations: momentum by the sums of momentum_sums.cl, and what the guard asks about walls.
-#define WALL_FORCES 0
-#include "momentum_sums.cl"
+// The accelerations.
+#define BOTH_RATES 0
+#include "accelerations.cl"
 
 __kernel void momentum(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                        WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const real* wall_loads, __global const real* film,
@@ -8,47 +8,5 @@ __kernel void momentum(__constant const parameters_t* p, int count, __global con
   const int first = TILE_OWN * get_global_id(0);
   if (first >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
-  sweep_t a = {0};
-  start_sums(&a, p, first, count, state, stride, reach, &walls, gradient);
-#if NEEDS_FIT
-  bool near = false;
-  for (int k = 0; k < a.near.own; ++k) near = near || near_walls(p, &walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-  // the fit costs as much as all else in the loop over the particles: two loops, so that the compiler leaves it out of one
-  if (near) {
-    sweep_particles(&a, p, slot_start, images);
-  } else {
-    a.fitting = false;
-    sweep_particles(&a, p, slot_start, images);
-  }
-#else
-  sweep_particles(&a, p, slot_start, images);
-#endif
-  pair_sums_t sums;
-  finish_particles(&a, &sums);
-  for (int k = 0; k < a.near.own; ++k) {
-    const int i = first + k;
-    wall_sweep_t b = {0};
-    start_wall_sums(&b, p, i, state, stride, &walls, wall_loads);
-    take_pair_sums(&b, p, &sums, k);
-#if GHOSTS
-    b.clearance = R(0.0);  // the guard looks for itself
-    add_repulsion(&b, p, images);
-#else
-    add_film(&b, p, film, images);
-    stand_at(&walls, state, stride, i);
-    LOOK_THROUGH(walls, a.near, k);
-    sweep_walls(&b, p, &walls, images, b.x, b.y, b.z);
-#endif
-    const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
-    rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
-    rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);
-    rates[RATE_W * stride + i] = (b.viscous_z - b.force_z) * per_mass + b.gravity.z;
-#if CARRIES_MOMENTUM
-    const real carries = p->slope_scale / b.density;
-    rates[RATE_U * stride + i] -= carries * sums.carried.x[k];
-    if (DIMENSIONS == 3) rates[RATE_V * stride + i] -= carries * sums.carried.y[k];
-    rates[RATE_W * stride + i] -= carries * sums.carried.z[k];
-#endif
-    rates[RATE_CLEARANCE * stride + i] = b.clearance;
-  }
+  accelerate_tile(p, first, count, slot_start, state, stride, reach, &walls, images, gradient, wall_loads, film, rates);
 }

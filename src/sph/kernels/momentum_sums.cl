@@ -5,7 +5,7 @@
 // place for it, so there it is the plane fitted about the particle itself, p̂ + ∇p̂·(y − x_i), with what hydrostatics explains added by gravity less the wall's
 // acceleration: ∫ p W dS = p̂ ∫ W dS + [∇p̂ + ρ_i (g − a)]·∫ (y − x_i) W dS. Not p_i itself: in 3-D tanks at rest that lets pressures oscillate until they
 // are a fifth of ρ g H.
-// For momentum.cl, and for wall_forces.cl, which defines WALL_FORCES.
+// For momentum.cl, for rates.cl, which finds the other rates in the same sweep (BOTH_RATES), and for wall_forces.cl, which defines WALL_FORCES.
 #include "walls.cl"
 #include "film.cl"
 #include "linear_fit.cl"
@@ -13,6 +13,9 @@
 #include "equation_of_state.cl"
 #include "scheme.cl"
 #include "viscosity.cl"
+#if BOTH_RATES
+#include "continuity_sums.cl"
+#endif
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 #define NEAR_OWNERS (FACING_OWNERS + 2)
@@ -43,6 +46,9 @@ typedef struct {
   tile own_shepard;
   tile carried_x, carried_y, carried_z;  // what the mass that is exchanged brings, by the mean of both ends' γ
 #endif
+#if BOTH_RATES
+  continuity_t continuity;
+#endif
 #if SHEPARD_VOLUMETRIC
   tile shepard;
 #endif
@@ -56,6 +62,10 @@ typedef struct {
   real force_x, force_y, force_z;
   real viscous_x, viscous_y, viscous_z;
   real shepard, clearance;
+#if BOTH_RATES
+  vector_t motion;
+  real divergence;
+#endif
 #if NEEDS_FIT
   bool fitting;
   linear_fit_t fit;
@@ -120,12 +130,19 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->force_y += central * ry;
 #endif
 #if CARRIES_MOMENTUM
-  const tile mass = slope_volume * exchange.mass * shared_shepard(&a->near, a->gradient, a->own_shepard, j);
+  const tile shared = shared_shepard(&a->near, a->gradient, a->own_shepard, j);
+  const tile mass = slope_volume * exchange.mass * shared;
   a->carried_x += mass * exchange.carried.x;
   a->carried_z += mass * exchange.carried.z;
 #if DIMENSIONS == 3
   a->carried_y += mass * exchange.carried.y;
 #endif
+#endif
+#if BOTH_RATES
+#if !CARRIES_MOMENTUM
+  const tile shared = (tile)(R(1.0));
+#endif
+  add_to_continuity(&a->continuity, p, &a->near, a->gradient, &pair, &exchange, shared);
 #endif
 #if WALL_FORCES && THIN_WALLS
   const tile across = a->near.through * central;
@@ -185,6 +202,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #endif
 #if SHEPARD_GEOMETRIC
   a->shepard += c.shepard;
+#endif
+#if BOTH_RATES
+  a->divergence += wall_divergence(a->walls, s, &c, a->motion, x, y, z);
 #endif
   const real clearance = wall_clearance(p, &c);
   a->clearance = clearance < a->clearance ? clearance : a->clearance;
@@ -275,6 +295,9 @@ INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, 
   a->own = scheme_own(&a->near, gradient, first);
 #if CARRIES_MOMENTUM
   a->own_shepard = own_values(gradient + GRADIENT_SHEPARD * stride, first);
+#endif
+#if BOTH_RATES && DENSITY_DIFFUSION
+  start_diffusion(&a->continuity.diffusion, p, &a->near, gradient, first);
 #endif
 #if NEEDS_FIT
   a->fitting = true;

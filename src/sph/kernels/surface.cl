@@ -31,6 +31,9 @@ typedef struct {
   real x, y, z;                  // ∇C's part
   real xx, xy, xz, yy, yz, zz;   // of ∫ (y − x) ⊗ n W dS, its symmetric part
   real weight, shepard;
+#if SHIFT_TENSILE
+  real tensile_x, tensile_y, tensile_z;
+#endif
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
@@ -89,6 +92,33 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #endif
 }
 
+#if SHIFT_TENSILE
+// ∫ W⁵ dS/W(Δx)⁴ over ∫ W dS, of a plane at a distance, by Gauss' rule of eight points: over the circle that the support cuts out of it, in 2-D the chord.
+INLINE real tensile_of_plane(__constant const parameters_t* p, real distance) {
+  const real place[4] = {R(0.1834346425), R(0.5255324099), R(0.7966664774), R(0.9602898565)};
+  const real weight[4] = {R(0.3626837834), R(0.3137066459), R(0.2223810345), R(0.1012285363)};
+  const real d = fmin(fabs(distance), p->support);
+#if DIMENSIONS == 3
+  const real from = d, to = p->support;  // the distance, with the circle's length about it
+#else
+  const real from = R(0.0), to = sqrt(fmax(p->support_squared - d * d, R(0.0)));  // along the chord
+#endif
+  real plain = R(0.0), tensile = R(0.0);
+  for (int k = 0; k < 8; ++k) {
+    const real at = R(0.5) * ((to + from) + (to - from) * (k < 4 ? place[k] : -place[k - 4]));
+#if DIMENSIONS == 3
+    const real distance_there = at, share = at * weight[k & 3];
+#else
+    const real distance_there = sqrt(d * d + at * at), share = weight[k & 3];
+#endif
+    const real value = kernel_value(p, distance_there), ratio = value * p->inverse_kernel_at_spacing;
+    plain += share * value;
+    tensile += share * value * (ratio * ratio) * (ratio * ratio);
+  }
+  return plain > R(0.0) ? tensile / plain : R(0.0);
+}
+#endif
+
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if SHEPARD_GEOMETRIC
@@ -98,6 +128,14 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->x += c.weight * c.normal.x;
   a->y += c.weight * c.normal.y;
   a->z += c.weight * c.normal.z;
+#if SHIFT_TENSILE
+  if (p->tensile_of_walls > R(0.0) && c.weight != R(0.0)) {
+    const real tensile = p->tensile_of_walls * c.weight * tensile_of_plane(p, c.distance);
+    a->tensile_x += tensile * c.normal.x;
+    a->tensile_y += tensile * c.normal.y;
+    a->tensile_z += tensile * c.normal.z;
+  }
+#endif
   a->xx += c.moment.x * c.normal.x;
   a->zz += c.moment.z * c.normal.z;
   a->xz += R(0.5) * (c.moment.x * c.normal.z + c.moment.z * c.normal.x);
@@ -220,11 +258,10 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
     vector_t uneven = concentration;
 #if SHIFT_TENSILE
     // by a wall its own tensile part would have to balance that of the water; without either, water rests there
-    if (b.weight == R(0.0) && p->tensile > R(0.0)) {
-      uneven.x += p->tensile * f * tensile.x[k];
-      uneven.y += p->tensile * f * tensile.y[k];
-      uneven.z += p->tensile * f * tensile.z[k];
-    }
+    const real factor = b.weight == R(0.0) || p->tensile_by_walls > R(0.0) ? f * p->tensile : R(0.0);
+    uneven.x += factor * tensile.x[k] + b.tensile_x;
+    uneven.y += factor * tensile.y[k] + b.tensile_y;
+    uneven.z += factor * tensile.z[k] + b.tensile_z;
 #endif
 #if SHIFT_SMOOTHS
     uneven = make_vector(smooth.x[k], smooth.y[k], smooth.z[k]);

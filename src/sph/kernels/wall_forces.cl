@@ -4,6 +4,7 @@
 // part of its support that lies behind walls; it is shared by how much of that part lies behind each. What the water missing behind one owner would do to
 // another's walls is not here: facing_walls.cl.
 #define WALL_FORCES 1
+#define BOTH_RATES 0
 #include "momentum_sums.cl"
 
 // The owner's part of what is missing behind walls. Quadrature may make a part slightly negative.

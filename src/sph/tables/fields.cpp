@@ -68,15 +68,15 @@ std::string FieldTable::header() const {
     }
     text += "#define " + std::string(device_prefixes[array]) + "COUNT " + std::to_string(place) + "\n";
   }
-  for (const auto& [evolution, name] :
-       {std::pair(FieldRow::Evolution::conjugate, "CONJUGATE"), {FieldRow::Evolution::follower, "FOLLOWER"}}) {
-    text += std::string("#define EACH_") + name + "(DO)";
-    for (const FieldRow& row : rows_)
-      if (row.evolution == evolution)
-        for (const std::string& component : row.components) text += " DO(" + upper(component) + ")";
-    text += "\n";
-  }
-  return text;
+  return text + each_of(FieldRow::Evolution::conjugate, "EACH_CONJUGATE") + each_of(FieldRow::Evolution::follower, "EACH_FOLLOWER");
+}
+
+std::string FieldTable::each_of(FieldRow::Evolution evolution, const std::string& macro) const {
+  std::string text = "#define " + macro + "(DO)";
+  for (const FieldRow& row : rows_)
+    if (row.evolution == evolution)
+      for (const std::string& component : row.components) text += " DO(" + upper(component) + ")";
+  return text + "\n";
 }
 
 const std::vector<FieldRow>& common_fields() {

@@ -42,6 +42,8 @@ class FieldTable {
   std::string header() const;
 
  private:
+  /// A macro that does a thing for each field that evolves so.
+  std::string each_of(FieldRow::Evolution evolution, const std::string& macro) const;
   const std::vector<std::string>& names(ParticleArray array) const { return names_[static_cast<int>(array)]; }
 
   std::vector<FieldRow> rows_;

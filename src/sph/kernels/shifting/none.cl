@@ -1,2 +1,3 @@
 // No shifting law.
 #define SHIFTING 0
+#define SHIFT_TENSILE 0

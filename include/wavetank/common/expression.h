@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+namespace wavetank {
+
+/// A number as a function of a place, given as text: of x, y and z with + − * / ^, comparisons, `? :`, pi, and sin, cos, tan, exp, ln,
+/// log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between threads.
+class Expression {
+ public:
+  /// Throws Error, which says what is wrong and at which character, for text that is none.
+  explicit Expression(const std::string& text);
+  ~Expression();
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression&&) noexcept;
+
+  /// At a place, m. Not finite where the expression is not.
+  double at(const Eigen::Vector3d& place) const;
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace wavetank

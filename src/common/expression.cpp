@@ -1,0 +1,41 @@
+#include "wavetank/common/expression.h"
+
+#include <muParser.h>
+
+#include <cmath>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+
+struct Expression::Parser {
+  mu::Parser parser;
+  double x = 0, y = 0, z = 0;
+};
+
+Expression::Expression(const std::string& text) : parser_(std::make_unique<Parser>()) {
+  try {
+    parser_->parser.DefineVar("x", &parser_->x);
+    parser_->parser.DefineVar("y", &parser_->y);
+    parser_->parser.DefineVar("z", &parser_->z);
+    parser_->parser.DefineConst("pi", std::acos(-1.0));
+    parser_->parser.SetExpr(text);
+    parser_->parser.Eval();
+  } catch (const mu::Parser::exception_type& failure) {
+    const std::string place = failure.GetPos() < static_cast<int>(text.size()) ? " at its character " + std::to_string(failure.GetPos() + 1) : " at its end";
+    throw Error("\"" + text + "\" is no expression of x, y and z: " + failure.GetMsg() + place);
+  }
+}
+
+Expression::~Expression() = default;
+Expression::Expression(Expression&&) noexcept = default;
+Expression& Expression::operator=(Expression&&) noexcept = default;
+
+double Expression::at(const Eigen::Vector3d& place) const {
+  parser_->x = place.x();
+  parser_->y = place.y();
+  parser_->z = place.z();
+  return parser_->parser.Eval();
+}
+
+}  // namespace wavetank

@@ -1,0 +1,12 @@
+// All rates in one sweep, of which each pair is looked at once: for integrators that want them of one state.
+#define BOTH_RATES 1
+#include "accelerations.cl"
+
+__kernel void rates_of_state(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
+                             WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const real* wall_loads, __global const real* film,
+                             __global real* rates) {
+  const int first = TILE_OWN * get_global_id(0);
+  if (first >= count) return;
+  walls_t walls = WALLS_OF_ARGUMENTS;
+  accelerate_tile(p, first, count, slot_start, state, stride, reach, &walls, images, gradient, wall_loads, film, rates);
+}
