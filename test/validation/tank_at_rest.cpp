@@ -63,6 +63,7 @@ void run(const std::string& case_file, const std::string& out, double end, const
   if (file == nullptr) throw wavetank::Error("'" + out + "' cannot be written.");
   std::fprintf(file, "time,kinetic_over_potential,pressure_error,guard_hits\n");
 
+  const double potential_at_start = simulation->energies().potential;
   double greatest_error = 0, greatest_energy = 0;
   Mean error;
   std::vector<Mean> forces(simulation->scene().bodies.size());
@@ -94,7 +95,8 @@ void run(const std::string& case_file, const std::string& out, double end, const
   std::printf("t sqrt(g/H) = %.2f (%.2f s): %s\n", simulation->state().time / unit, simulation->state().time, outcome.c_str());
   std::printf("L2 error of the pressure over rho g H: %.4f at the most, %.4f in the mean of the second half\n", greatest_error,
               error.value());
-  std::printf("kinetic over potential energy: %.2g at the most; guard hits: %llu\n", greatest_energy,
+  std::printf("kinetic over potential energy: %.2g at the most; potential energy changed by %+.3f %%; guard hits: %llu\n", greatest_energy,
+              100 * (simulation->energies().potential / potential_at_start - 1),
               static_cast<unsigned long long>(simulation->state().guard_hits));
   for (std::size_t b = 0; b < forces.size(); ++b) {
     const double displaced = rest.density * rest.gravity * simulation->layout().meshes[1 + b].signed_volume();
