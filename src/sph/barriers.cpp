@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "wall_cells.h"
 
@@ -9,26 +10,74 @@ namespace wavetank {
 
 namespace {
 
-/// As neighbours.cl has barriers.
+/// A flat convex part of a thin wall: a facet, or two of one plane that make up a quadrangle.
+struct Barrier {
+  Facet facet;                    ///< the first; its corners turn left about its normal
+  std::optional<Facet> other;     ///< the second
+  std::vector<Vector3d> corners;  ///< all around; in 2-D both ends
+};
+
+/// The corners of both facets around, if they lie in one plane, side by side, and nothing turns inwards.
+std::optional<std::vector<Vector3d>> quadrangle(const Facet& a, const Facet& b) {
+  if (a.owner != b.owner || a.normal != b.normal || a.plane_point != b.plane_point) return {};
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      if (a.corners[k] != b.corners[(l + 1) % 3] || a.corners[(k + 1) % 3] != b.corners[l]) continue;
+      std::vector<Vector3d> corners = {a.corners[k], b.corners[(l + 2) % 3], a.corners[(k + 1) % 3], a.corners[(k + 2) % 3]};
+      for (int m = 0; m < 4; ++m) {
+        const Vector3d edge = corners[(m + 1) % 4] - corners[m], next = corners[(m + 2) % 4] - corners[(m + 1) % 4];
+        if (edge.cross(next).dot(a.normal) < 1e-6 * edge.norm() * next.norm()) return {};
+      }
+      return corners;
+    }
+  return {};
+}
+
+/// Every plane costs all ways near it: what meshes have as pairs of triangles, one after the other, is looked past as one.
+std::vector<Barrier> barriers_of(const std::vector<Facet>& plates, int dimensions) {
+  std::vector<Barrier> barriers;
+  for (const Facet& given : plates) {
+    const Facet facet = turned_left(given, dimensions);
+    if (dimensions == 3 && !barriers.empty() && !barriers.back().other) {
+      if (const auto corners = quadrangle(barriers.back().facet, facet)) {
+        barriers.back().other = facet;
+        barriers.back().corners = *corners;
+        continue;
+      }
+    }
+    barriers.push_back({facet, {}, {facet.corners, facet.corners + dimensions}});
+  }
+  return barriers;
+}
+
+CellOrder barriers_by_cell(const std::vector<Barrier>& barriers, const Discretisation& d) {
+  CellPairs pairs;
+  for (std::size_t k = 0; k < barriers.size(); ++k) {
+    add_cells_of(barriers[k].facet, static_cast<int>(k), 0.0, d, pairs);
+    if (barriers[k].other) add_cells_of(*barriers[k].other, static_cast<int>(k), 0.0, d, pairs);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return lists_of(std::move(pairs), d);
+}
+
+/// As neighbours.cl has barriers: where there are fewer edges, the first ones again.
 template <class Real>
-std::vector<Real> plane_values(const std::vector<Facet>& facets, const Discretisation& d) {
+std::vector<Real> plane_values(const std::vector<Barrier>& barriers, const Discretisation& d) {
   const double margin = 1e-4 * d.spacing;  // no gap between two that meet
   std::vector<Real> values;
   const auto add_plane = [&](const Vector3d& normal, const Vector3d& point, double offset) {
     for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<Real>(normal[axis]));
     values.push_back(static_cast<Real>(offset - normal.dot(point - d.origin)));
   };
-  for (const Facet& given : facets) {
-    const Facet facet = turned_left(given, d.dimensions);
+  for (const Barrier& barrier : barriers) {
+    const Facet& facet = barrier.facet;
+    const int count = static_cast<int>(barrier.corners.size());
     add_plane(facet.normal, facet.plane_point, 0.0);
-    for (int k = 0; k < 3; ++k) {
-      if (d.dimensions == 2) {  // the two ends, the second of them twice
-        const Vector3d way = (facet.corners[1] - facet.corners[0]).normalized();
-        add_plane(k == 0 ? way : Vector3d(-way), facet.corners[k == 0 ? 0 : 1], margin);
-        continue;
-      }
-      const Vector3d edge = facet.corners[(k + 1) % 3] - facet.corners[k];
-      add_plane(facet.normal.cross(edge).normalized(), facet.corners[k], margin);
+    for (int k = 0; k < field::barrier_edges; ++k) {
+      const Vector3d& corner = barrier.corners[k % count];
+      const Vector3d edge = barrier.corners[(k + 1) % count] - corner;
+      add_plane(d.dimensions == 2 ? edge.normalized() : facet.normal.cross(edge).normalized(), corner, margin);
     }
     values.push_back(static_cast<Real>(facet.owner));
   }
@@ -99,10 +148,11 @@ CellOrder edges_by_cell(const std::vector<FreeEdge>& edges, const Discretisation
 template <class Real>
 void Barriers<Real>::place(const compute::Device& device, const std::vector<Facet>& plates, const std::vector<FreeEdge>& free_edges,
                            const std::vector<Facet>& walls, const Discretisation& d) {
-  const CellOrder cells = facets_by_cell(plates, d), edge_cells = edges_by_cell(free_edges, d);
+  const std::vector<Barrier> barriers = barriers_of(plates, d.dimensions);
+  const CellOrder cells = barriers_by_cell(barriers, d), edge_cells = edges_by_cell(free_edges, d);
   starts.set(device, cells.begin);
   list.set(device, cells.order);
-  planes.set(device, plane_values<Real>(plates, d));
+  planes.set(device, plane_values<Real>(barriers, d));
   edge_starts.set(device, edge_cells.begin);
   edge_list.set(device, edge_cells.order);
   edges.set(device, edge_values<Real>(free_edges, walls, d));

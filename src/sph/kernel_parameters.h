@@ -37,7 +37,8 @@ enum Wall {
 enum Around { around_eigenvalue, around_normal, around_shepard = around_normal + 3, around_surface, around_count = around_surface + 5 };
 constexpr double shift_most = 0.2;  // of the spacing, in a step
 constexpr int edge_count = 8;
-constexpr int barrier_count = 17;
+constexpr int barrier_edges = 4;
+constexpr int barrier_count = 21;
 constexpr int free_edge_count = 8;
 constexpr int image_count = 37;
 constexpr int frame_count = 12;

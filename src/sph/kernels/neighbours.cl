@@ -17,7 +17,7 @@ typedef struct {
   __global const real* fields;
   int wall_stride;  // with long, 3-D steps take 3 % more; walls are never as many as particles
   __global const real* motions;
-  // thin walls, that the water does not see through: each cell's part of a list of flat triangles
+  // thin walls, that the water does not see through: each cell's part of a list of flat triangles and quadrangles
   __global const int* barrier_start;
   __global const int* barrier_list;
   __global const real* barriers;
@@ -31,6 +31,8 @@ typedef struct {
 #if THIN_WALLS
   // of the particle whose turn it is:
   real share;    // with which it sees walls that thin ones hide from it
+  bool past;     // thin walls may stand between it and what is within its support
+  real nearest;  // it is no nearer to any of them
   bool screened; // it stands before a thin wall, of the plane n·y + o = 0
   real screen[4];
 #endif
@@ -65,6 +67,7 @@ typedef struct {
 #endif
   const walls_t* walls;
 #if THIN_WALLS
+  bool past;                     // thin walls may stand between the tile and what is within its support
   int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is
   real transparency[TILE_OWN];   // with which neighbours count that a thin wall hides
   real beyond[TILE_OWN];         // Σ W V of all that are beyond thin walls, in sight or not
@@ -103,6 +106,7 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, long s
   for (int axis = 0; axis < 3; ++axis) n->rest[axis] = (tile)(R(0.0));
 #endif
 #if THIN_WALLS
+  n->past = true;
   n->watched = NO_OWNER;
   for (int k = 0; k < TILE_OWN; ++k) n->transparency[k] = n->beyond[k] = R(0.0);
   n->seen = (tile)(R(1.0));
@@ -238,13 +242,14 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
 }
 
 #if THIN_WALLS
-#define BARRIER_COUNT 17  // plane n, o, and three edges' planes m, o, all with normal · x + o; inside an edge that is not negative; the owner
-#define BARRIER_OWNER 16
+#define BARRIER_EDGES 4
+#define BARRIER_COUNT 21  // plane n, o, and the edges' planes m, o, all with normal · x + o; inside an edge that is not negative; the owner
+#define BARRIER_OWNER 20
 
 // Whether the barrier stands at the point (x, y, z) of its plane.
 INLINE bool within_barrier(__global const real* b, real x, real y, real z) {
   bool within = true;
-  for (int e = 1; e < 4; ++e) within = within && b[4 * e] * x + b[4 * e + 1] * y + b[4 * e + 2] * z + b[4 * e + 3] >= R(0.0);
+  for (int e = 1; e <= BARRIER_EDGES; ++e) within = within && b[4 * e] * x + b[4 * e + 1] * y + b[4 * e + 2] * z + b[4 * e + 3] >= R(0.0);
   return within;
 }
 
@@ -283,14 +288,32 @@ INLINE bool beyond_thin(__constant const parameters_t* p, const walls_t* walls, 
   return false;
 }
 
-// Sets the plane of the nearest thin wall that (x, y, z) stands before and over.
+// Of the support: how far thin walls are looked for. Walls are also looked at from a hair off the particle.
+#define SIGHT R(1.01)
+
+// (x, y, z) is no nearer to the barrier, of whose plane it is that far.
+INLINE real least_way_to_barrier(__global const real* b, real off_plane, real x, real y, real z) {
+  real off = fabs(off_plane);
+  for (int e = 1; e <= BARRIER_EDGES; ++e) off = fmax(off, -(b[4 * e] * x + b[4 * e + 1] * y + b[4 * e + 2] * z + b[4 * e + 3]));
+  return off;
+}
+
+// Sets whether thin walls may hide anything from (x, y, z), and the plane of the nearest one that it stands before and over.
 INLINE void find_screen(__constant const parameters_t* p, walls_t* walls, real x, real y, real z) {
   const int cell = cell_index(p, x, y, z);
+  const real reach = SIGHT * p->support;
   real nearest = p->support;
+  walls->past = false;
+  walls->nearest = p->support;
   walls->screened = false;
   for (int k = walls->barrier_start[cell]; k < walls->barrier_start[cell + 1]; ++k) {
     __global const real* b = walls->barriers + BARRIER_COUNT * walls->barrier_list[k];
     const real distance = -(b[0] * x + b[1] * y + b[2] * z + b[3]);
+    if (fabs(distance) >= reach) continue;
+    const real least = least_way_to_barrier(b, distance, x, y, z);
+    if (least >= reach) continue;
+    walls->past = true;
+    walls->nearest = fmin(walls->nearest, least);
     if (distance <= R(0.0) || distance >= nearest) continue;
     if (!within_barrier(b, x + distance * b[0], y + distance * b[1], z + distance * b[2])) continue;
     nearest = distance;
@@ -298,6 +321,33 @@ INLINE void find_screen(__constant const parameters_t* p, walls_t* walls, real x
     for (int i = 0; i < 4; ++i) walls->screen[i] = b[i];
   }
 }
+
+// Of the kernel, what lies farther than this, in supports.
+INLINE real kernel_beyond(real q) {
+  const real q2 = q * q;
+#if DIMENSIONS == 3
+  const real within = R(42.0) * q2 * q * (R(1.0) / R(3.0) + q2 * (R(-2.0) + q * (R(10.0) / R(3.0) + q * (R(-15.0) / R(7.0) + q * R(0.5)))));
+#else
+  const real within = R(14.0) * q2 * (R(0.5) + q2 * (R(-2.5) + q * (R(4.0) + q * (R(-2.5) + q * (R(4.0) / R(7.0))))));
+#endif
+  return fmax(R(1.0) - within, R(0.0));
+}
+
+// The far side of thin walls counts by how wet it is beyond them: wholly from this Σ W V on, since no more than all of the kernel that is farther than
+// they are has room there; and a little more, for the quadrature. Where thin walls hide less than LITTLE_ROOM, the far side counts as wet: off the tip of
+// a part next to nothing is hidden, and next to nothing beyond; their ratio would be noise.
+#define WET_BEYOND R(20.0)  // far from full, a far side is not dry
+#define LITTLE_ROOM R(0.02)
+INLINE real enough_beyond(__constant const parameters_t* p, real nearest) {
+  return (R(1.1) * kernel_beyond(nearest * p->inverse_support) - LITTLE_ROOM) / WET_BEYOND;
+}
+
+// Whether they may hide walls that are looked at from (x, y, z), once find_screen has been at the particle. Where images have them it has not.
+#if IMAGES
+#define MAY_HIDE(p, walls, x, y, z) has_barriers(p, walls, x, y, z)
+#else
+#define MAY_HIDE(p, walls, x, y, z) ((walls)->past)
+#endif
 
 // Of the thin walls of the cell that the way from (x, y, z) along (rx, ry, rz) crosses from their water to their back: whether the first one faces the
 // other way than a wall with this normal.

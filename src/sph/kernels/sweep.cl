@@ -193,6 +193,81 @@ INLINE void sweep_blocks(sweep_t* sums, __constant const parameters_t* p, const 
   }
 }
 
+#if THIN_WALLS
+INLINE void add_beyond(neighbours_t* near, tile beyond) {
+  real sums[TILE_OWN];
+  own_sums(beyond, sums);
+  for (int k = 0; k < TILE_OWN; ++k)
+    if (near->transparency[k] > R(0.0)) near->beyond[k] += sums[k];
+}
+
+// What lies beyond thin walls that hide nothing from the tile, up to where more does not matter: from the middle rows on, where the kernel is largest.
+INLINE void find_beyond(neighbours_t* near, __constant const parameters_t* p, near_barriers_t* barriers, const int* list, int runs, int blocks, tile x,
+                        tile y, tile z) {
+  const real enough = enough_beyond(p, barriers->nearest);
+  if (enough < R(0.0)) return;
+  keep_backs(barriers);
+  if (barriers->count == 0) return;
+  tile beyond = (tile)(R(0.0));
+  int gone = 0;
+  const int* run = list;
+  for (; run < list + runs / 2; run += 2) gone += (run[1] - run[0] - gone + TILE_NEAR - 1) / TILE_NEAR * TILE_NEAR;
+  for (int block = 0; block < blocks; ++block) {
+    const block_t b = block_of(near, run, gone, x, y, z);
+    if (add_only_beyond(near, p, barriers, &beyond, b.j, x, y, z, b.rx, b.ry, b.rz, b.r2)) {
+      real sums[TILE_OWN];
+      own_sums(beyond, sums);
+      bool wet = true;
+      for (int k = 0; k < TILE_OWN; ++k) wet = wet && (k >= near->own || sums[k] > enough);
+      if (wet) break;
+    }
+    run += b.left <= TILE_NEAR ? 2 : 0;
+    gone += TILE_NEAR;
+    if (gone == TILE_NEAR * blocks) {
+      gone = 0;
+      run = list;
+    }
+  }
+  add_beyond(near, beyond);
+}
+
+// The candidates of the list as thin walls let the tile see them. False, and they are left to sweep_blocks, if nothing is hidden: where no thin wall is near
+// after all, and about free edges.
+SELDOM bool sweep_past(sweep_t* sums, __constant const parameters_t* p, const int* list, int runs, int blocks, const places_t* at, tile x, tile y, tile z) {
+  neighbours_t* near = &sums->near;
+  near_barriers_t barriers;
+  barriers.count = -1;
+  if (!IMAGES) {
+    find_barriers(&barriers, near, p, at);
+    near->past = barriers.count != 0;
+    if (barriers.count == 0) return false;
+  }
+  if (barriers.count > 0) {
+    stand_before(&barriers, near, x, y, z);
+    if (!barriers.hides) {
+      find_beyond(near, p, &barriers, list, runs, blocks, x, y, z);
+      return false;
+    }
+  }
+  const tile transparency = spread_own(near->transparency);
+  tile beyond = (tile)(R(0.0));
+  const int* run = list;
+  for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
+    const block_t b = block_of(near, run, gone, x, y, z);
+    if (barriers.count > 0)
+      look_past(near, p, &barriers, transparency, &beyond, b.j, x, y, z, b.rx, b.ry, b.rz, b.r2);
+    else
+      look_at_all(near, p, at, b.j, b.left, b.rx, b.ry, b.rz, b.r2);
+    add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
+    run += b.left <= TILE_NEAR ? 2 : 0;
+  }
+  add_beyond(near, beyond);
+  near->seen = (tile)(R(1.0));
+  near->through = (tile)(R(0.0));
+  return true;
+}
+#endif
+
 // All rows near the box, of which there are no more than MOST_ROWS. First a list of runs, then the candidates of all of them in one loop, whose end a
 // processor foresees: runs are short.
 INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, const places_t* at, tile x, tile y, tile z) {
@@ -216,40 +291,12 @@ INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global 
     }
   }
 #if THIN_WALLS
-  // two loops, so that the compiler leaves out of one what thin walls take
-  near_barriers_t barriers;
-  barriers.count = IMAGES ? -(int)near_barriers(near, p, at) : find_barriers(near, p, at, barriers.list);
-  near->seen = (tile)(R(1.0));
+  near->past = near_barriers(near, p, at);
+  if (near->past && sweep_past(sums, p, list, runs, blocks, at, x, y, z)) return;
+  near->seen = (tile)(R(1.0));  // here too, so that the compiler leaves it out
   near->through = (tile)(R(0.0));
-  if (barriers.count == 0) {
-    sweep_blocks(sums, p, list, blocks, x, y, z);
-    return;
-  }
-  const tile transparency = spread_own(near->transparency);
-  tile beyond = (tile)(R(0.0));
-  for (int k = 0; k < barriers.count; ++k) {
-    __global const real* b = near->walls->barriers + BARRIER_COUNT * barriers.list[k];
-    barriers.before[k] = b[0] * x + b[1] * y + b[2] * z + b[3];
-  }
-  const int* run = list;
-  for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
-    const block_t b = block_of(near, run, gone, x, y, z);
-    if (barriers.count > 0)
-      look_past(near, p, &barriers, transparency, &beyond, b.j, x, y, z, b.rx, b.ry, b.rz, b.r2);
-    else
-      look_at_all(near, p, at, b.j, b.left, b.rx, b.ry, b.rz, b.r2);
-    add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
-    run += b.left <= TILE_NEAR ? 2 : 0;
-  }
-  real sums_beyond[TILE_OWN];
-  own_sums(beyond, sums_beyond);
-  for (int k = 0; k < TILE_OWN; ++k)
-    if (near->transparency[k] > R(0.0)) near->beyond[k] += sums_beyond[k];
-  near->seen = (tile)(R(1.0));
-  near->through = (tile)(R(0.0));
-#else
-  sweep_blocks(sums, p, list, blocks, x, y, z);
 #endif
+  sweep_blocks(sums, p, list, blocks, x, y, z);
 }
 
 // The neighbours around `at`, which for images is not where the particles themselves lie. Where the tile's particles do not lie together, in spray, each
@@ -350,17 +397,9 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
 #endif
 
 #if THIN_WALLS
-// Of the kernel: where thin walls hide less than this, their far side counts as wet. Off the tip of a part next to nothing is hidden, and next to nothing
-// beyond; their ratio would be noise.
-#define LITTLE_ROOM R(0.02)
-
-// Prepares the walls for what the point sees of them: how much of those that thin ones hide from it counts. About free edges as much as of its neighbours
-// beyond; but on a dry far side there is nothing for the far walls to cancel with.
-INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real transparency, real beyond, real x, real y, real z) {
-  walls->share = R(0.0);
-  find_screen(p, walls, x, y, z);
-  if (transparency == R(0.0)) return;
-  real room = R(0.0);  // of the kernel, behind thin walls
+// Of the kernel, what lies behind thin walls.
+SELDOM real room_behind(__constant const parameters_t* p, const walls_t* walls, real x, real y, real z) {
+  real room = R(0.0);
   const int centre = cell_index(p, x, y, z);
 #if FACETS
   for (int k = walls->start[centre]; k < walls->start[centre + 1]; ++k) {
@@ -379,12 +418,27 @@ INLINE void look_through(__constant const parameters_t* p, walls_t* walls, real 
       }
     }
 #endif
-  // far from full, a far side is not dry
-  walls->share = transparency * fmin((R(20.0) * beyond + LITTLE_ROOM) / fmax(room, LITTLE_ROOM), R(1.0));
+  return room;
+}
+
+// Prepares the walls for what the point sees of them: how much of those that thin ones hide from it counts. About free edges as much as of its neighbours
+// beyond; but on a dry far side there is nothing for the far walls to cancel with.
+INLINE void look_through(__constant const parameters_t* p, walls_t* walls, bool past, real transparency, real beyond, real x, real y, real z) {
+  walls->share = R(0.0);
+  walls->past = false;
+  walls->screened = false;
+  if (!past) return;
+  find_screen(p, walls, x, y, z);
+  if (transparency == R(0.0) || !MAY_HIDE(p, walls, x, y, z)) return;
+  if (!IMAGES && beyond > enough_beyond(p, walls->nearest)) {
+    walls->share = transparency;
+    return;
+  }
+  walls->share = transparency * fmin((WET_BEYOND * beyond + LITTLE_ROOM) / fmax(room_behind(p, walls, x, y, z), LITTLE_ROOM), R(1.0));
 }
 // Of own particle k.
 #define LOOK_THROUGH(walls, near, k) \
-  look_through(p, &(walls), (near).transparency[k], (near).beyond[k], (near).places.x[k], (near).places.y[k], (near).places.z[k])
+  look_through(p, &(walls), (near).past, (near).transparency[k], (near).beyond[k], (near).places.x[k], (near).places.y[k], (near).places.z[k])
 #else
 #define LOOK_THROUGH(walls, near, k)
 #endif

@@ -9,6 +9,13 @@
 #endif
 #define TILE_LANES (TILE_OWN * TILE_NEAR)
 
+// A function for few tiles. Where others would have its code in the midst of theirs, they are slower and all takes twice as long to compile.
+#if TILE_LANES > 1
+#define SELDOM static __attribute__((noinline))
+#else
+#define SELDOM INLINE
+#endif
+
 #if TILE_LANES == 1
 typedef real tile;
 #elif USE_DOUBLE && TILE_LANES == 4

@@ -226,7 +226,7 @@ INLINE contact_t touch_wall(__constant const parameters_t* p, const walls_t* wal
     return c;
   }
 #if THIN_WALLS
-  const bool whole = !has_barriers(p, walls, x, y, z);
+  const bool whole = !MAY_HIDE(p, walls, x, y, z);
 #else
   const bool whole = true;
 #endif

@@ -192,12 +192,12 @@ INLINE bool of_screens_side(__constant const parameters_t* p, const walls_t* wal
 #endif
 
 // What thin walls leave of a wall for the point; `c`: all of it.
-INLINE contact_t visible_part(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, contact_t c) {
+SELDOM contact_t visible_part(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z, contact_t c) {
   const bool behind = c.distance < R(0.0);
   // beyond a thin wall's two sides: the rim between them is nothing of its own
   if (behind && WALL_FIELD(walls, WALL_THIN, s) > RIM) return unseen(p, c);
 #if FACETS
-  if (!behind && walls->screened && !of_screens_side(p, walls, x, y, z, &c)) c = part_before(p, walls, s, x, y, z, c);
+  if (!behind && c.weight > R(0.0) && walls->screened && !of_screens_side(p, walls, x, y, z, &c)) c = part_before(p, walls, s, x, y, z, c);
 #endif
   if (c.weight <= R(0.0)) return behind && WALL_FIELD(walls, WALL_THIN, s) > R(0.5) ? unseen(p, c) : c;
   const real inverse = R(1.0) / c.weight;
@@ -222,7 +222,7 @@ INLINE contact_t whole_wall(__constant const parameters_t* p, const walls_t* wal
 // A wall as the point sees it.
 INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls, int s, real x, real y, real z) {
   const contact_t all = whole_wall(p, walls, s, x, y, z);
-  if (!has_barriers(p, walls, x, y, z)) return all;
+  if (!MAY_HIDE(p, walls, x, y, z)) return all;
   contact_t c = visible_part(p, walls, s, x, y, z, all);
   c.weight += walls->share * (all.weight - c.weight);
   c.shepard += walls->share * (all.shepard - c.shepard);
