@@ -3,8 +3,8 @@
 #define AROUND_NORMAL 1         // out of the water
 #define AROUND_SHEPARD 4        // γ
 #define AROUND_SURFACE 5        // 1: on the free surface
-#define AROUND_CONCENTRATION 6  // for shifting laws: ∇C with walls, and what the law wants beside it
-#define AROUND_APPROACH 9       // likewise: the greatest |(u_j − u_i)·e|
+#define AROUND_CONCENTRATION 6  // ∇C, walls included
+#define AROUND_WALLS 9          // Σ ∫ W dS: 0 where no wall is within the support
 
 // λ below which a particle is on the surface, and above which it is inside; between them the cone tells.
 #define EIGENVALUE_OF_SURFACE R(0.2)

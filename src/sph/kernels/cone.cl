@@ -14,9 +14,9 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const real length = p->support / R(3.0);
   const tile one = (tile)(R(1.0));
   const tile along = tile_dot(a->normal, make_tile_vector(rx, ry, rz));
-  const tile beyond = step((tile)(R(2.0) * length * length), r2);
-  const tile in_ball = one - step(R(2.0) * length * along, r2);
-  const tile in_cone = step((tile)(R(1.0e-6) * p->smoothing_length), along) * step(R(0.5) * r2, along * along);
+  const tile beyond = one_above(r2, (tile)(R(2.0) * length * length));
+  const tile in_ball = one_above(R(2.0) * length * along, r2);
+  const tile in_cone = one_above(along, (tile)(R(0.0))) * one_above(along * along, R(0.5) * r2);
   tile covered = beyond * in_ball + (one - beyond) * in_cone;
 #if THIN_WALLS
   covered *= a->near.seen;

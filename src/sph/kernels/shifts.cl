@@ -2,6 +2,7 @@
 // law: within the support of a particle of the surface nothing is moved across that, and little where λ is small. Nor does it move a particle at a wall into it.
 #include "walls.cl"
 #include "around.cl"
+#include "pair.cl"
 #include "shifting.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -9,21 +10,35 @@
 typedef struct {
   neighbours_t near;
   __global const real* around;
-  tile nearest;                          // r² of the nearest particle of the surface
-  tile normal_x, normal_y, normal_z;     // its normal
+  tile nearest;                       // r² of the nearest particle of the surface
+  tile normal_x, normal_y, normal_z;  // its normal
+#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
+  tile u, v, w;
+#endif
+#if SHIFT_BY_APPROACH
+  tile approach;  // the greatest square of (u_j − u_i)·e
+#endif
+#if SHIFT_TENSILE || SHIFT_SMOOTHS
+  tile sum_x, sum_y, sum_z;  // Σ (W/W(Δx))⁴ ∇W V, or Σ V ρ_j (u_j − u_i)/(ρ_i + ρ_j) W
+#endif
+#if SHIFT_SMOOTHS
+  tile compression;
+#endif
 } sweep_t;
 
 typedef struct {
   const walls_t* walls;
   vector_t velocity, shift;
+  bool holding;      // the shift back from walls; else their tensile part is summed
+  vector_t tensile;
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
   __global const real* around = a->around;
   const long stride = a->near.stride;
-  tile nearer = near_values(around + AROUND_SURFACE * stride, j) * ((tile)(R(1.0)) - step(a->nearest, r2));
+  tile nearer = near_values(around + AROUND_SURFACE * stride, j) * one_above(a->nearest, r2);
 #if THIN_WALLS
-  nearer *= step((tile)(R(0.5)), a->near.seen);
+  nearer *= one_above(a->near.seen, (tile)(R(0.5)));
 #endif
   __global const real* normal = around + AROUND_NORMAL * stride;
   tile_vector_t n = make_tile_vector(near_values(normal, j), DIMENSIONS == 3 ? near_values(normal + stride, j) : (tile)(R(0.0)),
@@ -35,9 +50,81 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->normal_x += nearer * (n.x - a->normal_x);
   a->normal_y += nearer * (n.y - a->normal_y);
   a->normal_z += nearer * (n.z - a->normal_z);
+#if SHIFT_BY_APPROACH || SHIFT_TENSILE || SHIFT_SMOOTHS
+  const tile distance = sqrt(r2);
+  const tile volume = near_volume(&a->near, j);
+#endif
+#if SHIFT_BY_APPROACH || SHIFT_TENSILE
+  const tile slope_volume = kernel_slopes(p, distance) * volume;
+#endif
+#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, volume, a->u, a->v, a->w);
+#endif
+#if SHIFT_BY_APPROACH
+#if GHOSTS
+  if (!a->near.mirrored)
+#endif
+  {
+    // of the water within the support alone; nothing is at r = 0 but the particle itself
+    const tile within = one_above(slope_volume, (tile)(R(0.0)));
+    a->approach = fmax(a->approach, within * pair.approach * pair.approach / (r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length));
+  }
+#endif
+#if SHIFT_TENSILE
+  // bounded: numbers too small for the processor's normal arithmetic would take a hundred times as long
+  const tile ratio = fmax(kernel_values(p, distance) * p->inverse_kernel_at_spacing, (tile)(R(1.0e-3)));
+  const tile tensile = slope_volume * (ratio * ratio) * (ratio * ratio);
+  a->sum_x += tensile * rx;
+  a->sum_z += tensile * rz;
+#if DIMENSIONS == 3
+  a->sum_y += tensile * ry;
+#endif
+#endif
+#if SHIFT_SMOOTHS
+  const tile near_density = R(1.0) + neighbour_compression(&a->near, p, j, rx, ry, rz);
+  const tile weight = kernel_values(p, distance) * volume * near_density / (R(1.0) + a->compression + near_density);
+  a->sum_x += weight * pair.relative.x;
+  a->sum_y += weight * pair.relative.y;
+  a->sum_z += weight * pair.relative.z;
+#endif
 }
 
+#if SHIFT_TENSILE
+// ∫ W⁵ dS/W(Δx)⁴ over ∫ W dS, of a plane at a distance, by Gauss' rule of eight points: over the circle that the support cuts out of it, in 2-D the chord.
+INLINE real tensile_of_plane(__constant const parameters_t* p, real distance) {
+  const real place[4] = {R(0.1834346425), R(0.5255324099), R(0.7966664774), R(0.9602898565)};
+  const real weight[4] = {R(0.3626837834), R(0.3137066459), R(0.2223810345), R(0.1012285363)};
+  const real d = fmin(fabs(distance), p->support);
+#if DIMENSIONS == 3
+  const real from = d, to = p->support;  // the distance, with the circle's length about it
+#else
+  const real from = R(0.0), to = sqrt(fmax(p->support_squared - d * d, R(0.0)));  // along the chord
+#endif
+  real plain = R(0.0), tensile = R(0.0);
+  for (int k = 0; k < 8; ++k) {
+    const real at = R(0.5) * ((to + from) + (to - from) * (k < 4 ? place[k] : -place[k - 4]));
+#if DIMENSIONS == 3
+    const real distance_there = at, share = at * weight[k & 3];
+#else
+    const real distance_there = sqrt(d * d + at * at), share = weight[k & 3];
+#endif
+    const real value = kernel_value(p, distance_there), ratio = value * p->inverse_kernel_at_spacing;
+    plain += share * value;
+    tensile += share * value * (ratio * ratio) * (ratio * ratio);
+  }
+  return plain > R(0.0) ? tensile / plain : R(0.0);
+}
+#endif
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+#if SHIFT_TENSILE
+  if (!a->holding) {
+    const contact_t seen = see_wall(p, a->walls, s, x, y, z);
+    if (seen.weight == R(0.0)) return;
+    const real tensile = p->tensile_of_walls * seen.weight * tensile_of_plane(p, seen.distance);
+    a->tensile = make_vector(a->tensile.x + tensile * seen.normal.x, a->tensile.y + tensile * seen.normal.y, a->tensile.z + tensile * seen.normal.z);
+    return;
+  }
+#endif
   const contact_t c = touch_wall(p, a->walls, s, x, y, z);
   if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < -R(0.5) * p->spacing) return;
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x, y, z);
@@ -90,25 +177,66 @@ __kernel void shifts(__constant const parameters_t* p, int count, __global const
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   a.around = around;
   a.nearest = (tile)(p->support_squared);
+#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
+  a.u = own_values(state + FIELD_U * stride, first);
+  a.v = own_values(state + FIELD_V * stride, first);
+  a.w = own_values(state + FIELD_W * stride, first);
+#endif
+#if SHIFT_SMOOTHS
+  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
+#endif
   sweep_particles(&a, p, slot_start, images);
   nearest_t nearest[TILE_OWN];
   own_nearest(&a, nearest);
+#if SHIFT_BY_APPROACH
+  real approach[TILE_OWN];
+  own_greatest(a.approach, approach);
+#endif
+#if SHIFT_TENSILE || SHIFT_SMOOTHS
+  places_t sum;
+  own_sums(a.sum_x, sum.x);
+  own_sums(a.sum_y, sum.y);
+  own_sums(a.sum_z, sum.z);
+#endif
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
+    wall_sweep_t b = {&walls, velocity_of(state, stride, i), {R(0.0), R(0.0), R(0.0)}, false, {R(0.0), R(0.0), R(0.0)}};
+#if !GHOSTS
+    stand_at(&walls, state, stride, i);
+    LOOK_THROUGH(walls, a.near, k);
+#endif
     shifted_t s;
-    s.concentration = make_vector(around[AROUND_CONCENTRATION * stride + i], around[(AROUND_CONCENTRATION + 1) * stride + i],
-                                  around[(AROUND_CONCENTRATION + 2) * stride + i]);
-    s.velocity = velocity_of(state, stride, i);
-    s.approach = around[AROUND_APPROACH * stride + i];
+    s.velocity = b.velocity;
+    s.approach = R(0.0);
+#if SHIFT_BY_APPROACH
+    s.approach = sqrt(approach[k]);
+#endif
     s.depth = sqrt(nearest[k].r2) * p->inverse_support;
     s.step = time_step[0];
+    s.concentration = make_vector(around[AROUND_CONCENTRATION * stride + i], around[(AROUND_CONCENTRATION + 1) * stride + i],
+                                  around[(AROUND_CONCENTRATION + 2) * stride + i]);
+#if SHIFT_TENSILE
+    // by a wall its own tensile part would have to balance that of the water; without either, water rests there
+    const bool by_wall = around[AROUND_WALLS * stride + i] != R(0.0);
+    if (!by_wall || p->tensile_by_walls > R(0.0)) {
+      const real factor = p->slope_scale * p->tensile;
+#if !GHOSTS
+      if (by_wall) sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+#endif
+      s.concentration.x += factor * sum.x[k] + b.tensile.x;
+      s.concentration.y += factor * sum.y[k] + b.tensile.y;
+      s.concentration.z += factor * sum.z[k] + b.tensile.z;
+    }
+#endif
+#if SHIFT_SMOOTHS
+    s.concentration = make_vector(sum.x[k], sum.y[k], sum.z[k]);
+#endif
     vector_t shift = shift_by_law(p, &s);
     if (s.depth < R(1.0)) shift = under_surface(shift, around[AROUND_EIGENVALUE * stride + i], s.depth, nearest[k].normal);
     shift = limited(shift, SHIFT_MOST * p->spacing / s.step);
 #if !GHOSTS
-    stand_at(&walls, state, stride, i);
-    LOOK_THROUGH(walls, a.near, k);
-    wall_sweep_t b = {&walls, s.velocity, shift};
+    b.shift = shift;
+    b.holding = true;
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     shift = b.shift;
 #endif

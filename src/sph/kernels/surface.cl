@@ -1,8 +1,7 @@
 // Where the water has a free surface: the least eigenvalue λ of Σ_j r ⊗ ∇W V_j (eq (42) of the particle shifting paper with M, not its inverse), with walls by
-// eq (55); between its bounds Marrone's cone test. What shifting laws need of the neighbours comes from the same sweep.
+// eq (55); between its bounds Marrone's cone test (cone.cl).
 #include "walls.cl"
 #include "around.cl"
-#include "shifting.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
@@ -10,17 +9,6 @@ typedef struct {
   neighbours_t near;
   tile sum_x, sum_y, sum_z;      // ∇C
   tile xx, xy, xz, yy, yz, zz;
-#if SHIFTING
-  tile u, v, w;
-  tile approach;  // the greatest square of (u_j − u_i)·e
-#if SHIFT_TENSILE
-  tile tensile_x, tensile_y, tensile_z;
-#endif
-#if SHIFT_SMOOTHS
-  tile compression;
-  tile smooth_x, smooth_y, smooth_z;
-#endif
-#endif
 #if SHEPARD_VOLUMETRIC
   tile shepard;
 #endif
@@ -31,9 +19,6 @@ typedef struct {
   real x, y, z;                  // ∇C's part
   real xx, xy, xz, yy, yz, zz;   // of ∫ (y − x) ⊗ n W dS, its symmetric part
   real weight, shepard;
-#if SHIFT_TENSILE
-  real tensile_x, tensile_y, tensile_z;
-#endif
 } wall_sweep_t;
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
@@ -54,70 +39,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #if SHEPARD_VOLUMETRIC
   a->shepard += kernel_values(p, distance) * volume;
 #endif
-#if SHIFTING
-  const tile_vector_t velocity = neighbour_velocity(&a->near, j);
-  const tile du = velocity.x - a->u, dw = velocity.z - a->w;
-#if DIMENSIONS == 3
-  const tile dv = velocity.y - a->v;
-  const tile towards = du * rx + dv * ry + dw * rz;
-#else
-  const tile towards = du * rx + dw * rz;
-#endif
-#if GHOSTS
-  if (!a->near.mirrored)
-#endif
-  {
-    // of the water within the support alone; nothing is at r = 0 but the particle itself
-    const tile within = step((tile)(R(1.0e-30)), slope_volume);
-    a->approach = fmax(a->approach, within * towards * towards / fmax(r2, (tile)(R(1.0e-12) * p->smoothing_length * p->smoothing_length)));
-  }
-#if SHIFT_TENSILE
-  const tile ratio = kernel_values(p, distance) * p->inverse_kernel_at_spacing;
-  const tile tensile = slope_volume * (ratio * ratio) * (ratio * ratio);
-  a->tensile_x += tensile * rx;
-  a->tensile_z += tensile * rz;
-#if DIMENSIONS == 3
-  a->tensile_y += tensile * ry;
-#endif
-#endif
-#if SHIFT_SMOOTHS
-  const tile near_density = R(1.0) + neighbour_compression(&a->near, p, j, rx, ry, rz);
-  const tile weight = kernel_values(p, distance) * volume * near_density / (R(1.0) + a->compression + near_density);
-  a->smooth_x += weight * du;
-  a->smooth_z += weight * dw;
-#if DIMENSIONS == 3
-  a->smooth_y += weight * dv;
-#endif
-#endif
-#endif
 }
-
-#if SHIFT_TENSILE
-// ∫ W⁵ dS/W(Δx)⁴ over ∫ W dS, of a plane at a distance, by Gauss' rule of eight points: over the circle that the support cuts out of it, in 2-D the chord.
-INLINE real tensile_of_plane(__constant const parameters_t* p, real distance) {
-  const real place[4] = {R(0.1834346425), R(0.5255324099), R(0.7966664774), R(0.9602898565)};
-  const real weight[4] = {R(0.3626837834), R(0.3137066459), R(0.2223810345), R(0.1012285363)};
-  const real d = fmin(fabs(distance), p->support);
-#if DIMENSIONS == 3
-  const real from = d, to = p->support;  // the distance, with the circle's length about it
-#else
-  const real from = R(0.0), to = sqrt(fmax(p->support_squared - d * d, R(0.0)));  // along the chord
-#endif
-  real plain = R(0.0), tensile = R(0.0);
-  for (int k = 0; k < 8; ++k) {
-    const real at = R(0.5) * ((to + from) + (to - from) * (k < 4 ? place[k] : -place[k - 4]));
-#if DIMENSIONS == 3
-    const real distance_there = at, share = at * weight[k & 3];
-#else
-    const real distance_there = sqrt(d * d + at * at), share = weight[k & 3];
-#endif
-    const real value = kernel_value(p, distance_there), ratio = value * p->inverse_kernel_at_spacing;
-    plain += share * value;
-    tensile += share * value * (ratio * ratio) * (ratio * ratio);
-  }
-  return plain > R(0.0) ? tensile / plain : R(0.0);
-}
-#endif
 
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
@@ -128,14 +50,6 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   a->x += c.weight * c.normal.x;
   a->y += c.weight * c.normal.y;
   a->z += c.weight * c.normal.z;
-#if SHIFT_TENSILE
-  if (p->tensile_of_walls > R(0.0) && c.weight != R(0.0)) {
-    const real tensile = p->tensile_of_walls * c.weight * tensile_of_plane(p, c.distance);
-    a->tensile_x += tensile * c.normal.x;
-    a->tensile_y += tensile * c.normal.y;
-    a->tensile_z += tensile * c.normal.z;
-  }
-#endif
   a->xx += c.moment.x * c.normal.x;
   a->zz += c.moment.z * c.normal.z;
   a->xz += R(0.5) * (c.moment.x * c.normal.z + c.moment.z * c.normal.x);
@@ -191,14 +105,6 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
-#if SHIFTING
-  a.u = own_values(state + FIELD_U * stride, first);
-  a.v = own_values(state + FIELD_V * stride, first);
-  a.w = own_values(state + FIELD_W * stride, first);
-#if SHIFT_SMOOTHS
-  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
-#endif
-#endif
   sweep_particles(&a, p, slot_start, images);
   places_t sum;
   real xx[TILE_OWN], xy[TILE_OWN], xz[TILE_OWN], yy[TILE_OWN], yz[TILE_OWN], zz[TILE_OWN];
@@ -211,22 +117,6 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
   own_sums(a.yy, yy);
   own_sums(a.yz, yz);
   own_sums(a.zz, zz);
-#if SHIFTING
-  real approach[TILE_OWN];
-  own_greatest(a.approach, approach);
-#if SHIFT_TENSILE
-  places_t tensile;
-  own_sums(a.tensile_x, tensile.x);
-  own_sums(a.tensile_y, tensile.y);
-  own_sums(a.tensile_z, tensile.z);
-#endif
-#if SHIFT_SMOOTHS
-  places_t smooth;
-  own_sums(a.smooth_x, smooth.x);
-  own_sums(a.smooth_y, smooth.y);
-  own_sums(a.smooth_z, smooth.z);
-#endif
-#endif
   const real f = p->slope_scale;
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
@@ -254,22 +144,9 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
 #else
     around[AROUND_SHEPARD * stride + i] = b.shepard;
 #endif
-#if SHIFTING
-    vector_t uneven = concentration;
-#if SHIFT_TENSILE
-    // by a wall its own tensile part would have to balance that of the water; without either, water rests there
-    const real factor = b.weight == R(0.0) || p->tensile_by_walls > R(0.0) ? f * p->tensile : R(0.0);
-    uneven.x += factor * tensile.x[k] + b.tensile_x;
-    uneven.y += factor * tensile.y[k] + b.tensile_y;
-    uneven.z += factor * tensile.z[k] + b.tensile_z;
-#endif
-#if SHIFT_SMOOTHS
-    uneven = make_vector(smooth.x[k], smooth.y[k], smooth.z[k]);
-#endif
-    around[AROUND_CONCENTRATION * stride + i] = uneven.x;
-    around[(AROUND_CONCENTRATION + 1) * stride + i] = uneven.y;
-    around[(AROUND_CONCENTRATION + 2) * stride + i] = uneven.z;
-    around[AROUND_APPROACH * stride + i] = sqrt(approach[k]);
-#endif
+    around[AROUND_CONCENTRATION * stride + i] = concentration.x;
+    around[(AROUND_CONCENTRATION + 1) * stride + i] = concentration.y;
+    around[(AROUND_CONCENTRATION + 2) * stride + i] = concentration.z;
+    around[AROUND_WALLS * stride + i] = b.weight;
   }
 }

@@ -132,6 +132,9 @@ INLINE void lanes_of(tile v, real* lanes) { vstore16(v, 0, lanes); }
 INLINE tile tile_of(const real* lanes) { return vload16(0, lanes); }
 #endif
 
+// 1 where x is above the bound, else 0. (step() of some compilers goes through the lanes one by one.)
+INLINE tile one_above(tile x, tile bound) { return x > bound ? (tile)(R(1.0)) : (tile)(R(0.0)); }
+
 // The greatest over the candidates, of each own particle.
 INLINE void own_greatest(tile a, real* greatest) {
 #if TILE_LANES == 1

@@ -33,7 +33,7 @@ INLINE exchange_t pair_exchange(const scheme_own_t* own, __constant const parame
   const tile density = p->density * (R(1.0) + fluid_compression(p, star.pressure));
   const tile crossing = star.advance - middle;
   // the mass comes from the side that the middle leaves behind, with its velocity across the line of centres
-  const tile from_own = step((tile)(R(0.0)), crossing);
+  const tile from_own = one_above(crossing, (tile)(R(0.0)));
   const tile inverse = R(1.0) / (pair->r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length);
   const tile along = (star.advance - from_own * star.left - (R(1.0) - from_own) * star.right) * inverse;
   exchange_t exchange;

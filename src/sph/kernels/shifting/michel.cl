@@ -1,7 +1,7 @@
 // Michel's law, eq (22) of the particle shifting paper: by the greatest speed at which a neighbour comes nearer or goes away, so that it vanishes where water
 // moves as a solid, and with the resolution. Under a free surface its factor goes over to 1.
-#define SHIFTING 1
 #define SHIFT_TENSILE 1
+#define SHIFT_BY_APPROACH 1
 #define SHIFT_SMOOTHS 0
 
 INLINE vector_t shift_by_law(__constant const parameters_t* p, const shifted_t* s) {

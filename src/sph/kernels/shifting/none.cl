@@ -1,3 +1,1 @@
-// No shifting law.
-#define SHIFTING 0
-#define SHIFT_TENSILE 0
+// No shifting law: what reads shifts is compiled without them.
