@@ -89,26 +89,24 @@ Lost lost_by(NumericsCase numerics, double courant, int steps) {
 
 TEST(Schemes, ConserveMassAndMomentum) {
   if (!has_precision(Precision::double_)) GTEST_SKIP() << "needs double precision";
-  for (const MethodWord<Scheme>& known : method_words<Scheme>())
-    for (const Shifting law : {Shifting::none, Shifting::michel}) {
-      NumericsCase numerics = of_scheme(known.choice);
-      numerics.shifting = law;
-      const Lost lost = lost_by(numerics, 0.5, 20);
-      std::printf("%-18s shifting %-7s of momentum %.1e and of mass %.1e lost\n", known.word, word_of(law).c_str(), lost.momentum,
-                  lost.mass);
-      if (known.choice != Scheme::riemann_ale) {
-        // what comes within the support faster than the step foresaw is missed, at the very edge of the kernel
-        EXPECT_LT(lost.momentum, 1e-9) << known.word;
-        EXPECT_LT(lost.mass, 1e-14) << known.word;
-        continue;
-      }
-      // compressions and volumes evolve, and the mass follows from them: as exactly as the integrator's fourth order has them
-      const Lost finer = lost_by(numerics, 0.25, 40);
-      std::printf("%-18s in half as long steps %.1e and %.1e\n", "", finer.momentum, finer.mass);
-      EXPECT_LT(lost.mass, 1e-4);
-      EXPECT_LT(finer.mass, lost.mass / 8);
-      EXPECT_LT(finer.momentum, lost.momentum / 8);
+  for (const MethodWord<Scheme>& known : method_words<Scheme>()) {
+    NumericsCase numerics = of_scheme(known.choice);
+    numerics.shifting = Shifting::michel;
+    const Lost lost = lost_by(numerics, 0.5, 20);
+    std::printf("%-18s of momentum %.1e and of mass %.1e lost\n", known.word, lost.momentum, lost.mass);
+    if (known.choice != Scheme::riemann_ale) {
+      // what comes within the support faster than the step foresaw is missed, at the very edge of the kernel
+      EXPECT_LT(lost.momentum, 1e-9) << known.word;
+      EXPECT_LT(lost.mass, 1e-14) << known.word;
+      continue;
     }
+    // compressions and volumes evolve, and the mass follows from them: as exactly as the integrator's fourth order has them
+    const Lost finer = lost_by(numerics, 0.25, 40);
+    std::printf("%-18s in half as long steps %.1e and %.1e\n", "", finer.momentum, finer.mass);
+    EXPECT_LT(lost.mass, 1e-4);
+    EXPECT_LT(finer.mass, lost.mass / 8);
+    EXPECT_LT(finer.momentum, lost.momentum / 8);
+  }
 }
 
 /// Of the vortices sin 2πx cos 2πz: the share of the kinetic energy that is left after a tenth of a second at 1 m/s.
@@ -129,13 +127,13 @@ double left_of_vortices(const NumericsCase& numerics) {
   return water.solver->energies().kinetic / before;
 }
 
-/// Prototypes of the Riemann schemes had 0.949; without the reconstruction 0.439, without its limiter 0.979.
+/// Prototypes of the Riemann schemes, which limited velocities by their components, had 0.949; without the reconstruction 0.439, without
+/// its limiter 0.979.
 TEST(Schemes, VorticesLoseWhatTheReconstructionLets) {
   if (!has_precision(Precision::double_)) GTEST_SKIP() << "needs double precision";
   for (const MethodWord<Scheme>& known : method_words<Scheme>()) {
     NumericsCase numerics = of_scheme(known.choice);
     numerics.shifting = Shifting::michel;
-    numerics.equation_of_state = EquationOfState::cole;
     numerics.courant = 0.75;
     if (known.choice == Scheme::delta_sph) numerics.artificial_viscosity = 0.01;
     const double left = left_of_vortices(numerics);
@@ -143,7 +141,7 @@ TEST(Schemes, VorticesLoseWhatTheReconstructionLets) {
     if (known.choice == Scheme::delta_sph)
       EXPECT_NEAR(left, 0.991, 0.004);
     else
-      EXPECT_NEAR(left, 0.949, 0.006) << known.word;
+      EXPECT_NEAR(left, 0.953, 0.004) << known.word;
   }
 }
 
@@ -171,6 +169,7 @@ TEST(Schemes, WallsGetWhatTheWaterLoses) {
   if (!has_precision(Precision::double_)) GTEST_SKIP() << "needs double precision";
   for (const MethodWord<Scheme>& known : method_words<Scheme>())
     for (const auto elements : {WallElements::numerical, WallElements::facet}) {
+      if (known.choice == Scheme::riemann_parshikov && elements == WallElements::numerical) continue;  // as much compiling as all else here
       Case scene = box_case(Vector3d(0.6, 0, 0.6), 0.4, 0.025);
       scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.3, 0, 0.4)}};
       scene.bodies = {BodyCase{"block", Box{Vector3d(0.3, 0, 0), Vector3d(0.4, 0, 0.1)}}};

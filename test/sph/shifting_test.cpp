@@ -144,7 +144,8 @@ TEST_F(ShiftingLaws, DoNotMoveAFreeSurface) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const Vector3d& at = particles[i];
       if (std::abs(at.x() - 0.5) > 0.25) continue;  // off the sides, which are surfaces too
-      if (at.z() > 0.46) EXPECT_LE(std::abs(found.shifts[i].z()), 0.3 * found.shifts[i].norm()) << "of the first row, which may go along it";
+      if (at.z() > 0.46)
+        EXPECT_LE(std::abs(found.shifts[i].z()), 0.3 * found.shifts[i].norm()) << "of the first row, which may go along it";
       if (at.z() > 0.41) across = std::max(across, std::abs(found.shifts[i].z()));
       if (std::abs(at.z() - 0.25) < 0.05) inside = std::max(inside, std::abs(found.shifts[i].z()));
     }

@@ -31,7 +31,8 @@ TEST(FieldTable, GivesEachComponentItsPlaceInItsArray) {
   EXPECT_EQ(fields.count(rates), 1);
   EXPECT_EQ(fields.header(),
             "#define FIELD_X 0  // place, m\n#define FIELD_Z 1  // place, m\n#define FIELD_SALT 2  // dissolved\n#define FIELD_COUNT 3\n"
-            "#define RATE_X 0  // its rate, m/s\n#define RATE_COUNT 1\n#define SUM_COUNT 0\n#define EACH_CONJUGATE(DO)\n#define EACH_FOLLOWER(DO)\n");
+            "#define RATE_X 0  // its rate, m/s\n#define RATE_COUNT 1\n#define SUM_COUNT 0\n#define EACH_CONJUGATE(DO)\n#define "
+            "EACH_FOLLOWER(DO)\n");
 }
 
 TEST(FieldTable, RefusesNamesThatAreTakenOrUnknown) {

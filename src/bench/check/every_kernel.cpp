@@ -202,27 +202,27 @@ void run_few(Runs& runs) {
   runs.run(scene, &mover);
 }
 
-/// Every word of every key by which a case chooses its method.
+template <class Choice>
+Choice nth(std::size_t k) {
+  return method_words<Choice>()[k % method_words<Choice>().size()].choice;
+}
+
+/// Every word of every key by which a case chooses its method, in as few runs as the longest list has words.
 void run_methods(Runs& runs, int dimensions) {
-  for (const MethodWord<DensityDiffusion>& known : method_words<DensityDiffusion>()) runs.run(column(dimensions, known.choice));
-  Case scene = column(dimensions);
-  for (const MethodWord<Scheme>& known : method_words<Scheme>()) {
-    scene.numerics.scheme = known.choice;
-    scene.numerics.shifting = Shifting::michel;
+  const std::size_t most = std::max({method_words<Scheme>().size(), method_words<DensityDiffusion>().size(),
+                                     method_words<Integrator>().size(), dimensions == 2 ? method_words<Shifting>().size() : 0});
+  for (std::size_t k = 0; k < most; ++k) {
+    Case scene = column(dimensions);
+    NumericsCase& numerics = scene.numerics;
+    numerics.scheme = nth<Scheme>(k);
+    numerics.density_diffusion = nth<DensityDiffusion>(k + 1);
+    numerics.integrator = nth<Integrator>(k);
+    numerics.shifting = dimensions == 2 ? nth<Shifting>(k) : Shifting::michel;
+    numerics.tensile = nth<Tensile>(k);
+    numerics.equation_of_state = nth<EquationOfState>(k);
+    numerics.viscosity_model = nth<ViscosityModel>(k);
     runs.run(scene);
   }
-  if (dimensions == 3) return;
-  const auto run_each = [&](auto NumericsCase::*key) {
-    Case chosen = column(dimensions);
-    for (const auto& known : method_words<std::decay_t<decltype(chosen.numerics.*key)>>()) {
-      chosen.numerics.*key = known.choice;
-      runs.run(chosen);
-    }
-  };
-  run_each(&NumericsCase::integrator);
-  run_each(&NumericsCase::shifting);
-  run_each(&NumericsCase::equation_of_state);
-  run_each(&NumericsCase::viscosity_model);
 }
 
 void run_all(Runs& runs) {

@@ -31,7 +31,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const tile volume = near_volume(&a->near, j);
   const tile distance = sqrt(r2);
   const tile slope_volume = kernel_slopes(p, distance) * volume;
-  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, slope_volume, a->u, a->v, a->w);
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, slope_volume, a->u, a->v, a->w);
   const exchange_t exchange = pair_exchange(&a->own, p, &a->near, a->gradient, &pair);
 #if EXCHANGES_MASS
   const tile shared = shared_shepard(&a->near, a->gradient, a->own_shepard, j);

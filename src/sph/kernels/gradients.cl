@@ -1,12 +1,13 @@
 // Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
-// Riemann problems, and where GRADIENT_OF_VELOCITY of the velocity's components as well; where particles exchange mass, γ beside them. As pair.cl has them in the array.
+// Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where particles exchange mass, γ beside them. As pair.cl has them in the array.
 #include "walls.cl"
 #include "pair.cl"
 #define SWEEP_PARTICLES
 #if GRADIENTS_AND_SHEPARD
 #define SWEEP_WALLS
 #endif
-#define QUANTITIES (GRADIENT_OF_VELOCITY ? 4 : 1)
+#define VELOCITIES (GRADIENT_OF_VELOCITY || GRADIENT_OF_STRAIN)
+#define QUANTITIES (VELOCITIES ? 4 : 1)
 
 typedef struct {
   neighbours_t near;
@@ -45,7 +46,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->shepard += kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
 #endif
   add_difference(a, 0, slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0]), rx, ry, rz);
-#if GRADIENT_OF_VELOCITY
+#if VELOCITIES
   const tile_vector_t velocity = neighbour_velocity(&a->near, j);
   add_difference(a, 1, slope_volume * (velocity.x - a->own[1]), rx, ry, rz);
 #if DIMENSIONS == 3
@@ -83,15 +84,15 @@ INLINE renormalisation_t renormalisation_of(real xx, real xy, real xz, real yy, 
   return l;
 }
 
-INLINE void write_gradient(__global real* gradient, long stride, int i, const renormalisation_t* l, real x, real y, real z) {
+INLINE void renormalise(const renormalisation_t* l, real x, real y, real z, real* gradient) {
 #if DIMENSIONS == 3
-  gradient[i] = l->scale * (l->xx * x + l->xy * y + l->xz * z);
-  gradient[stride + i] = l->scale * (l->xy * x + l->yy * y + l->yz * z);
-  gradient[2 * stride + i] = l->scale * (l->xz * x + l->yz * y + l->zz * z);
+  gradient[0] = l->scale * (l->xx * x + l->xy * y + l->xz * z);
+  gradient[1] = l->scale * (l->xy * x + l->yy * y + l->yz * z);
+  gradient[2] = l->scale * (l->xz * x + l->yz * y + l->zz * z);
 #else
-  gradient[i] = l->scale * (l->xx * x + l->xz * z);
-  gradient[stride + i] = R(0.0);
-  gradient[2 * stride + i] = l->scale * (l->xz * x + l->zz * z);
+  gradient[0] = l->scale * (l->xx * x + l->xz * z);
+  gradient[1] = R(0.0);
+  gradient[2] = l->scale * (l->xz * x + l->zz * z);
 #endif
 }
 
@@ -103,7 +104,7 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   a.own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
-#if GRADIENT_OF_VELOCITY
+#if VELOCITIES
   for (int axis = 0; axis < 3; ++axis) a.own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
 #endif
   sweep_particles(&a, p, slot_start, images);
@@ -136,12 +137,24 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
     gradient[GRADIENT_SHEPARD * stride + first + k] = bounded_shepard(b.shepard);
   }
 #endif
+  real found[QUANTITIES][TILE_OWN][3];
   for (int of = 0; of < QUANTITIES; ++of) {
     places_t sum;
     own_sums(a.sum_x[of], sum.x);
     own_sums(a.sum_y[of], sum.y);
     own_sums(a.sum_z[of], sum.z);
-    for (int k = 0; k < a.near.own; ++k)
-      write_gradient(gradient + (GRADIENT_COMPRESSION + 3 * of) * stride, stride, first + k, &l[k], f * sum.x[k], f * sum.y[k], f * sum.z[k]);
+    for (int k = 0; k < TILE_OWN; ++k) renormalise(&l[k], f * sum.x[k], f * sum.y[k], f * sum.z[k], found[of][k]);
+  }
+  for (int k = 0; k < a.near.own; ++k) {
+    __global real* to = gradient + first + k;
+    for (int axis = 0; axis < 3; ++axis) to[(GRADIENT_COMPRESSION + axis) * stride] = found[0][k][axis];
+#if GRADIENT_OF_VELOCITY
+    for (int of = 0; of < 3; ++of)
+      for (int axis = 0; axis < 3; ++axis) to[(GRADIENT_U + 3 * of + axis) * stride] = found[1 + of][k][axis];
+#elif GRADIENT_OF_STRAIN
+    int at = GRADIENT_U;
+    for (int of = 0; of < 3; ++of)
+      for (int axis = of; axis < 3; ++axis) to[at++ * stride] = R(0.5) * (found[1 + of][k][axis] + found[1 + axis][k][of]);
+#endif
   }
 }

@@ -103,7 +103,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
     add_to_fit(&a->fit, kernel_values(p, distance) * volume, pressure - p->density * head, rx, ry, rz);
   }
 #endif
-  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, slope_volume, a->u, a->v, a->w);
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, slope_volume, a->u, a->v, a->w);
   const exchange_t exchange = pair_exchange(&a->own, p, &a->near, a->gradient, &pair);
   // only against a division by zero: the 0.01 h² of the papers makes the viscosity 2 to 5 % too small
   const tile inverse = R(1.0) / (r2 + R(1.0e-4) * p->smoothing_length * p->smoothing_length);

@@ -2,18 +2,20 @@
 typedef struct {
   int j;                   // the first candidate
   tile rx, ry, rz, r2;     // x_j − x_i, m; m²
+  tile distance;           // m
   tile slope_volume;       // F V_j, but for the factor p->slope_scale
   tile_vector_t relative;  // u_j − u_i, m/s
   tile approach;           // (u_j − u_i)·(x_j − x_i), m²/s
 } pair_t;
 
-INLINE pair_t pair_of(const neighbours_t* n, int j, tile rx, tile ry, tile rz, tile r2, tile slope_volume, tile u, tile v, tile w) {
+INLINE pair_t pair_of(const neighbours_t* n, int j, tile rx, tile ry, tile rz, tile r2, tile distance, tile slope_volume, tile u, tile v, tile w) {
   pair_t pair;
   pair.j = j;
   pair.rx = rx;
   pair.ry = ry;
   pair.rz = rz;
   pair.r2 = r2;
+  pair.distance = distance;
   pair.slope_volume = slope_volume;
   const tile_vector_t velocity = neighbour_velocity(n, j);
   pair.relative = make_tile_vector(velocity.x - u, DIMENSIONS == 3 ? velocity.y - v : (tile)(R(0.0)), velocity.z - w);
@@ -25,10 +27,10 @@ INLINE pair_t pair_of(const neighbours_t* n, int j, tile rx, tile ry, tile rz, t
   return pair;
 }
 
-// Gradients that gradients.cl has found, one after the other in an array: three values each.
-#define GRADIENT_COMPRESSION 0
-#define GRADIENT_U 3         // of u, then v, then w
-#define GRADIENT_SHEPARD 12  // and, where particles exchange mass, γ
+// Gradients that gradients.cl has found, one after the other in an array.
+#define GRADIENT_COMPRESSION 0  // three values
+#define GRADIENT_U 3            // of u, then v, then w, three values each (GRADIENT_OF_VELOCITY); or the rate of strain, six (GRADIENT_OF_STRAIN)
+#define GRADIENT_SHEPARD 12     // and, where particles exchange mass, γ
 
 INLINE tile_vector_t own_gradient(const neighbours_t* n, __global const real* gradient, int of, int first) {
   __global const real* g = gradient + of * n->stride;
@@ -69,4 +71,32 @@ INLINE tile_vector_t neighbour_velocity_change(const neighbours_t* n, __global c
 // What antisymmetric exchanges of a pair are multiplied by: 1/γ of the mean γ, or what the one gives the other would not get.
 INLINE tile shared_shepard(const neighbours_t* n, __global const real* gradient, tile own_shepard, int j) {
   return R(2.0) / (own_shepard + near_values(gradient + GRADIENT_SHEPARD * n->stride, j));
+}
+
+// ½ (∇u + ∇uᵀ).
+typedef struct {
+  tile xx, xy, xz, yy, yz, zz;
+} strain_t;
+
+INLINE strain_t own_strain(const neighbours_t* n, __global const real* gradient, int first) {
+  __global const real* g = gradient + GRADIENT_U * n->stride;
+  strain_t e = {own_values(g, first), own_values(g + n->stride, first), own_values(g + 2 * n->stride, first), own_values(g + 3 * n->stride, first),
+                own_values(g + 4 * n->stride, first), own_values(g + 5 * n->stride, first)};
+  return e;
+}
+
+INLINE strain_t near_strain(const neighbours_t* n, __global const real* gradient, int j) {
+  __global const real* g = gradient + GRADIENT_U * n->stride;
+  strain_t e = {near_values(g, j), near_values(g + n->stride, j), near_values(g + 2 * n->stride, j), near_values(g + 3 * n->stride, j),
+                near_values(g + 4 * n->stride, j), near_values(g + 5 * n->stride, j)};
+  return e;
+}
+
+// r·(r·∇)u.
+INLINE tile stretch_of(const strain_t* e, tile rx, tile ry, tile rz) {
+#if DIMENSIONS == 3
+  return rx * (e->xx * rx + R(2.0) * (e->xy * ry + e->xz * rz)) + ry * (e->yy * ry + R(2.0) * e->yz * rz) + e->zz * rz * rz;
+#else
+  return rx * (e->xx * rx + R(2.0) * e->xz * rz) + e->zz * rz * rz;
+#endif
 }

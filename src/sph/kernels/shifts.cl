@@ -58,7 +58,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const tile slope_volume = kernel_slopes(p, distance) * volume;
 #endif
 #if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, volume, a->u, a->v, a->w);
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, volume, a->u, a->v, a->w);
 #endif
 #if SHIFT_BY_APPROACH
 #if GHOSTS

@@ -21,6 +21,7 @@ struct Method {
   std::vector<ReportRow> reports = {};
   bool needs_compression_gradient = false;  ///< renormalised, at every state of which the compression's rate is found
   bool needs_velocity_gradient = false;     ///< likewise
+  bool needs_strain_rate = false;           ///< likewise, where nothing needs the whole of that
   bool needs_shepard_factors = false;       ///< of neighbours, beside the gradients
   bool accelerates_by_gradients = false;    ///< needs them at every state of which accelerations are found too
   std::string code = {};                    ///< in place of that file's
@@ -39,7 +40,7 @@ Method viscosity_of(const Case& scene);
 Method equation_of_state_of(const Case& scene);
 Method shifting_of(const Case& scene);
 
-/// Components of gradients that kernels find for them: none, those of the compression, of the velocity too, and γ.
+/// Components of gradients that kernels find for them: none, those of the compression, the rate of strain or the velocity's too, and γ.
 int gradient_components(const Methods& methods);
 
 /// Whether accelerations need them too.

@@ -19,13 +19,16 @@ bool any_has(const Methods& methods, bool Method::*flag) {
 int gradient_components(const Methods& methods) {
   if (any_has(methods, &Method::needs_shepard_factors)) return 13;
   if (any_has(methods, &Method::needs_velocity_gradient)) return 12;
+  if (any_has(methods, &Method::needs_strain_rate)) return 9;
   return any_has(methods, &Method::needs_compression_gradient) ? 3 : 0;
 }
 
 bool accelerate_by_gradients(const Methods& methods) { return any_has(methods, &Method::accelerates_by_gradients); }
 
 void add_options(const Methods& methods, BuildOptions& options) {
-  options["GRADIENT_OF_VELOCITY"] = any_has(methods, &Method::needs_velocity_gradient);
+  const bool velocity = any_has(methods, &Method::needs_velocity_gradient);
+  options["GRADIENT_OF_VELOCITY"] = velocity;
+  options["GRADIENT_OF_STRAIN"] = !velocity && any_has(methods, &Method::needs_strain_rate);
   options["GRADIENTS_AND_SHEPARD"] = any_has(methods, &Method::needs_shepard_factors);
 }
 

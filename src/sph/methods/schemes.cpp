@@ -6,7 +6,7 @@ namespace {
 Method riemann_parshikov() {
   Method method{"scheme", word_of(Scheme::riemann_parshikov)};
   method.needs_compression_gradient = true;
-  method.needs_velocity_gradient = true;
+  method.needs_strain_rate = true;
   method.accelerates_by_gradients = true;
   return method;
 }
@@ -14,6 +14,8 @@ Method riemann_parshikov() {
 Method riemann_ale() {
   Method method = riemann_parshikov();
   method.word = word_of(Scheme::riemann_ale);
+  method.needs_strain_rate = false;
+  method.needs_velocity_gradient = true;
   method.needs_shepard_factors = true;
   method.fields = {
       {ParticleArray::state, {"volume"}, "m³", "that evolves; the mass follows from it", true, FieldRow::Evolution::conjugate}};

@@ -25,7 +25,8 @@ Method shifting_of(const Case& scene) {
   const Shifting law = scene.numerics.shifting;
   Method method{"shifting", word_of(law)};
   if (law == Shifting::none) return method;
-  method.fields = {{ParticleArray::state, {"shift_x", "shift_y", "shift_z"}, "m/s", "δu, found at a step's start and held throughout", true}};
+  method.fields = {
+      {ParticleArray::state, {"shift_x", "shift_y", "shift_z"}, "m/s", "δu, found at a step's start and held throughout", true}};
   method.parameters = {
       {"expected_speed", "m/s", "greatest one expected", [](const Source& s) { return s.scene.numerics.expected_speed.value(); }},
       {"inverse_kernel_at_spacing", "m^d", "1/W(Δx)", [](const Source& s) { return 1 / (kernel_scale(s) * kernel_at_spacing(s)); }},

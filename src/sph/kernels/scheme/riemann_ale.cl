@@ -20,6 +20,12 @@ INLINE tile_vector_t shift_of(const neighbours_t* n, int j) {
 }
 #endif
 
+// A component of u_l − u_i or, from the other side, of u_r − u_i.
+INLINE tile side_of_middle(tile from_own, tile own_change, tile near_change, tile difference) {
+  const tile left = R(0.5) * minmod(own_change, difference), right = difference - R(0.5) * minmod(near_change, difference);
+  return right + from_own * (left - right);
+}
+
 INLINE exchange_t pair_exchange(const scheme_own_t* own, __constant const parameters_t* p, const neighbours_t* n, __global const real* gradient,
                                 const pair_t* pair) {
   const star_t star = riemann_of(own, p, n, gradient, pair);
@@ -34,14 +40,20 @@ INLINE exchange_t pair_exchange(const scheme_own_t* own, __constant const parame
   const tile crossing = star.advance - middle;
   // the mass comes from the side that the middle leaves behind, with its velocity across the line of centres
   const tile from_own = one_above(crossing, (tile)(R(0.0)));
+  const tile_vector_t far_change = neighbour_velocity_change(n, gradient, pair->j, pair->rx, pair->ry, pair->rz);
+  const tile ux = side_of_middle(from_own, tile_dot(own->slope_u, way), far_change.x, pair->relative.x);
+#if DIMENSIONS == 3
+  const tile uy = side_of_middle(from_own, tile_dot(own->slope_v, way), far_change.y, pair->relative.y);
+#else
+  const tile uy = (tile)(R(0.0));
+#endif
+  const tile uz = side_of_middle(from_own, tile_dot(own->slope_w, way), far_change.z, pair->relative.z);
   const tile inverse = R(1.0) / (pair->r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length);
-  const tile along = (star.advance - from_own * star.left - (R(1.0) - from_own) * star.right) * inverse;
+  const tile along = (star.advance - tile_dot(way, make_tile_vector(ux, uy, uz))) * inverse;
   exchange_t exchange;
   exchange.pressure = R(2.0) * star.pressure;
   exchange.divergence = apart;
   exchange.mass = R(2.0) * density * crossing;
-  exchange.carried = make_tile_vector(star.u_right.x + from_own * (star.u_left.x - star.u_right.x) + along * way.x,
-                                      star.u_right.y + from_own * (star.u_left.y - star.u_right.y) + along * way.y,
-                                      star.u_right.z + from_own * (star.u_left.z - star.u_right.z) + along * way.z);
+  exchange.carried = make_tile_vector(ux + along * way.x, uy + along * way.y, uz + along * way.z);
   return exchange;
 }
