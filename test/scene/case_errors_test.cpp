@@ -56,6 +56,10 @@ INSTANTIATE_TEST_SUITE_P(
     Faults, BrokenCase,
     testing::Values(
         Fault{"UnknownKey", "density:", "densty:", {"case.yaml:5: fluid/densty is not a known key; did you mean fluid/density?"}},
+        Fault{"BadExpression",
+              "density:",
+              "initial: {u: 2*t}\n  density:",
+              {"case.yaml:5: fluid/initial/u: \"2*t\" is no expression of x, y and z", "at its character 3"}},
         Fault{"UnknownRootKey", "duration:", "durration:", {"case.yaml:2: durration is not a known key; did you mean duration?"}},
         Fault{"UnknownKeyInAList",
               "position:",

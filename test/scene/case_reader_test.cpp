@@ -279,3 +279,25 @@ TEST(Overrides, WriteASettledCaseWithBothSpacingAndParticles) {
   settled.fluid.particles = 1000;
   EXPECT_EQ(read_case_text(write_case(settled), "written").fluid.spacing, 0.1);
 }
+
+TEST(CaseReader, RiemannSchemesHaveNoOtherDissipationUnlessItIsGiven) {
+  const Case plain = read_case_text(smallest, "smallest", {{"numerics/scheme", "riemann_parshikov"}});
+  EXPECT_EQ(plain.numerics.density_diffusion, DensityDiffusion::none);
+  EXPECT_EQ(plain.numerics.artificial_viscosity, 0);
+  const Case given = read_case_text(smallest, "smallest", {{"numerics/scheme", "riemann_ale"}, {"numerics/artificial_viscosity", "0.01"}});
+  EXPECT_EQ(given.numerics.density_diffusion, DensityDiffusion::none);
+  EXPECT_EQ(given.numerics.artificial_viscosity, 0.01);
+  EXPECT_EQ(read_case_text(smallest, "smallest").numerics.density_diffusion, DensityDiffusion::fourtakas);
+}
+
+TEST(CaseReader, ReadsInitialFieldsAndWritesThemBack) {
+  const std::string text = std::string(smallest) + "numerics: {shifting: michel, tensile: plain, expected_speed: 2.5}\n";
+  const Case read = read_case_text(text, "smallest", {{"fluid/initial/u", "sin(2*pi*x)"}, {"fluid/initial/pressure", "1000*9.81*(1 - z)"}});
+  EXPECT_EQ(read.fluid.initial.u, "sin(2*pi*x)");
+  EXPECT_EQ(read.fluid.initial.w, "");
+  EXPECT_EQ(read.numerics.shifting, Shifting::michel);
+  EXPECT_EQ(read.numerics.expected_speed, 2.5);
+  const Case again = read_case_text(write_case(read), "written");
+  EXPECT_EQ(again.fluid.initial.pressure, "1000*9.81*(1 - z)");
+  EXPECT_EQ(again.numerics.tensile, Tensile::plain);
+}
