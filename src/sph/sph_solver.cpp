@@ -332,6 +332,8 @@ void SphSolver<Real>::find_shifts() {
   if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
   find_surface();
   kernels_.shifts.launch(count_);
+  // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts
+  if (case_.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume")) find_compression_rates(Slot::now);
 }
 
 template <class Real>

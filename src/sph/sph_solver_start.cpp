@@ -68,9 +68,13 @@ void SphSolver<Real>::set_hydrostatic() {
   const std::vector<std::uint32_t> id = id_.download();
   const double g = -case_.gravity.dot(up_);
   Real* const compressions = component(state, "compression");
+  Real* const masses = component(state, "mass");
+  Real* const volumes = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
     const double head = g * std::max(levels_[id[i]] - up_.dot(place_of(state, i)), 0.0) / c2;
     compressions[i] = static_cast<Real>(compression_at(head, case_));
+    masses[i] = static_cast<Real>(case_.fluid.density * volumes_[id[i]]);
+    volumes[i] = static_cast<Real>(volumes_[id[i]]);
   }
   for (const FieldRow& row : fields_.rows())
     if (row.evolution == FieldRow::Evolution::follower)

@@ -43,11 +43,16 @@ INLINE tile_vector_t near_gradient(const neighbours_t* n, __global const real* g
   return make_tile_vector(near_values(g, j), DIMENSIONS == 3 ? near_values(g + n->stride, j) : (tile)(R(0.0)), near_values(g + 2 * n->stride, j));
 }
 
-// Of a scalar.
-INLINE tile_vector_t neighbour_gradient(const neighbours_t* n, __global const real* gradient, int of, int j) {
-  tile_vector_t near = near_gradient(n, gradient, of, j);
+// Of the compression. A ghost's is mirrored, but for what hydrostatics explains, which goes on through the wall (neighbour_compression).
+INLINE tile_vector_t neighbour_gradient(const neighbours_t* n, __constant const parameters_t* p, __global const real* gradient, int j) {
+  tile_vector_t near = near_gradient(n, gradient, GRADIENT_COMPRESSION, j);
 #if GHOSTS
-  if (n->mirrored) near = turned(n->image + IMAGE_MATRIX, near.x, near.y, near.z);
+  if (n->mirrored) {
+    near = turned(n->image + IMAGE_MATRIX, near.x - p->hydrostatic_x, near.y - p->hydrostatic_y, near.z - p->hydrostatic_z);
+    near.x += p->hydrostatic_x;
+    near.y += p->hydrostatic_y;
+    near.z += p->hydrostatic_z;
+  }
 #endif
   return near;
 }

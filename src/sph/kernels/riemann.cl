@@ -77,7 +77,7 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
                          const pair_t* pair) {
   const tile near = neighbour_compression(n, p, pair->j, pair->rx, pair->ry, pair->rz);
   const tile difference = near - own->compression;
-  const tile_vector_t slope = neighbour_gradient(n, gradient, GRADIENT_COMPRESSION, pair->j);
+  const tile_vector_t slope = neighbour_gradient(n, p, gradient, pair->j);
   tile own_change = own->slope.x * pair->rx + own->slope.z * pair->rz, near_change = slope.x * pair->rx + slope.z * pair->rz;
 #if DIMENSIONS == 3
   own_change += own->slope.y * pair->ry;

@@ -127,6 +127,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #endif
   const contact_t c = touch_wall(p, a->walls, s, x, y, z);
   if (c.beside > BORDER * p->spacing || c.distance > p->guard_distance || c.distance < -R(0.5) * p->spacing) return;
+#if THIN_WALLS
+  if (c.distance < R(0.0) && WALL_FIELD(a->walls, WALL_THIN, s) > R(0.5)) return;  // the far side of what the particle stands before
+#endif
   const vector_t wall = wall_velocity(a->walls, s, c.normal, x, y, z);
   const real approach = dot3(make_vector(a->velocity.x + a->shift.x - wall.x, a->velocity.y + a->shift.y - wall.y, a->velocity.z + a->shift.z - wall.z),
                              c.normal);
@@ -201,10 +204,8 @@ __kernel void shifts(__constant const parameters_t* p, int count, __global const
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
     wall_sweep_t b = {&walls, velocity_of(state, stride, i), {R(0.0), R(0.0), R(0.0)}, false, {R(0.0), R(0.0), R(0.0)}};
-#if !GHOSTS
     stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
-#endif
     shifted_t s;
     s.velocity = b.velocity;
     s.approach = R(0.0);
@@ -234,12 +235,10 @@ __kernel void shifts(__constant const parameters_t* p, int count, __global const
     vector_t shift = shift_by_law(p, &s);
     if (s.depth < R(1.0)) shift = under_surface(shift, around[AROUND_EIGENVALUE * stride + i], s.depth, nearest[k].normal);
     shift = limited(shift, SHIFT_MOST * p->spacing / s.step);
-#if !GHOSTS
     b.shift = shift;
     b.holding = true;
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     shift = b.shift;
-#endif
     state[FIELD_SHIFT_X * stride + i] = shift.x;
     state[FIELD_SHIFT_Y * stride + i] = DIMENSIONS == 3 ? shift.y : R(0.0);
     state[FIELD_SHIFT_Z * stride + i] = shift.z;

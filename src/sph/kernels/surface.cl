@@ -43,9 +43,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
   const contact_t c = see_wall(p, a->walls, s, x, y, z);
-#if SHEPARD_GEOMETRIC
-  a->shepard += c.shepard;
-#endif
+  a->shepard += c.shepard;  // whatever factor the case has: of λ this is a part
   a->weight += c.weight;
   a->x += c.weight * c.normal.x;
   a->y += c.weight * c.normal.y;
@@ -142,7 +140,7 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
     own_sums(a.shepard, shepard);
     around[AROUND_SHEPARD * stride + i] = shepard[k];
 #else
-    around[AROUND_SHEPARD * stride + i] = b.shepard;
+    around[AROUND_SHEPARD * stride + i] = SHEPARD_GEOMETRIC ? b.shepard : R(1.0);
 #endif
     around[AROUND_CONCENTRATION * stride + i] = concentration.x;
     around[(AROUND_CONCENTRATION + 1) * stride + i] = concentration.y;

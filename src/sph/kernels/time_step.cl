@@ -18,7 +18,7 @@ INLINE void derive(__constant const parameters_t* p, __global real* state, long 
 }
 
 INLINE bool is_lost(__global const real* state, long stride, int i) {
-  bool lost = not_finite(state[FIELD_COMPRESSION * stride + i]);
+  bool lost = not_finite(state[FIELD_COMPRESSION * stride + i]) || not_finite(state[FIELD_VOLUME * stride + i]);
   for (int axis = 0; axis < 3; ++axis) lost = lost || not_finite(state[(FIELD_X + axis) * stride + i]) || not_finite(state[(FIELD_U + axis) * stride + i]);
   return lost;
 }
@@ -31,6 +31,10 @@ INLINE void leave_out(__global real* half_state, long stride, int i) {
     half_state[(FIELD_U + axis) * stride + i] = R(0.0);
     if (IS_LONG(axis)) half_state[(FIELD_REST_X + axis) * stride + i] = R(0.0);
   }
+  for (int axis = 0; axis < 3; ++axis) FORGET_SHIFT(half_state, axis, i);
+#define NOTHING(NAME) half_state[FIELD_##NAME * stride + i] = R(0.0);
+  EACH_CONJUGATE(NOTHING)
+  EACH_FOLLOWER(NOTHING)
   half_state[FIELD_PRESSURE * stride + i] = R(0.0);
   half_state[FIELD_VOLUME * stride + i] = R(0.0);
 }
@@ -99,7 +103,13 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     move(state, stride, axis, i, R(0.5) * step * (before + after) + step * SHIFT_OF(state, axis, i));
   }
   wrap(p, state, stride, i);
-  if (not_finite(half_state[FIELD_COMPRESSION * stride + i])) state[FIELD_U * stride + i] = half_state[FIELD_COMPRESSION * stride + i];  // lost in all
+  // lost in all: of the middle nothing is left to tell it by
+#define TELL(NAME)                                                                                          \
+  {                                                                                                         \
+    const real drifted = state[FIELD_##NAME * stride + i] + R(0.5) * step * rates[RATE_##NAME * stride + i]; \
+    if (not_finite(drifted)) state[FIELD_U * stride + i] = drifted;                                         \
+  }
+  EACH_CONJUGATE(TELL)
 #define TAKE(NAME) state[FIELD_##NAME * stride + i] = half_state[FIELD_##NAME * stride + i];
   EACH_CONJUGATE(TAKE)
   derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
@@ -124,10 +134,7 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 // Trial state: positions, velocities and what else evolves of a particle are set already.
 INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, long stride, int i) {
   derive(p, trial, stride, i, now[FIELD_MASS * stride + i]);
-  if (!is_lost(trial, stride, i)) return;
-#define NOTHING(NAME) trial[FIELD_##NAME * stride + i] = R(0.0);
-  EACH_EVOLVED(NOTHING)
-  leave_out(trial, stride, i);  // the sums have what was lost
+  if (is_lost(trial, stride, i)) leave_out(trial, stride, i);  // the sums have what was lost
 }
 
 // sum (+)= weight rates, of the trial state or, first, of that which is now; trial = now + part Δt rates.

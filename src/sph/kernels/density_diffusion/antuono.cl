@@ -17,7 +17,7 @@ INLINE void start_diffusion(diffusion_t* d, __constant const parameters_t* p, co
 // Half of what is summed.
 INLINE void add_diffusion(diffusion_t* d, __constant const parameters_t* p, const neighbours_t* n, __global const real* gradient, const pair_t* pair) {
   const tile difference = neighbour_compression(n, p, pair->j, pair->rx, pair->ry, pair->rz) - d->compression;
-  const tile_vector_t near = neighbour_gradient(n, gradient, GRADIENT_COMPRESSION, pair->j);
+  const tile_vector_t near = neighbour_gradient(n, p, gradient, pair->j);
   tile explained = (d->gradient.x + near.x) * pair->rx + (d->gradient.z + near.z) * pair->rz;
 #if DIMENSIONS == 3
   explained += (d->gradient.y + near.y) * pair->ry;

@@ -2,7 +2,7 @@
 #define EQUATION_OF_STATE(value, prefix)                                                                                        \
   INLINE value prefix##_pressure(__constant const parameters_t* p, value s) { return p->bulk_modulus * s; }                     \
   INLINE value prefix##_impedance(__constant const parameters_t* p, value s) { return p->density * p->sound_speed * (R(1.0) + s); } \
-  INLINE value prefix##_compression(__constant const parameters_t* p, value pressure) { return pressure / p->bulk_modulus; }
+  INLINE value prefix##_compression(__constant const parameters_t* p, value pressure) { return fmax(pressure / p->bulk_modulus, R(-0.99)); }
 
 // ∫ p/ρ² dρ/c₀² from rest to the compression s: what a unit of mass stores.
 INLINE real stored_energy_of(real s) {
