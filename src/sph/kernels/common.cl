@@ -78,11 +78,13 @@ INLINE void move(__global real* state, long stride, int axis, int i, real displa
 
 // With which a particle moves along an axis: the water's velocity, and what a shifting law adds for the whole of a step.
 #ifdef FIELD_SHIFT_X
-#define SHIFT_OF(state, axis, i) ((state)[(FIELD_SHIFT_X + (axis)) * stride + (i)])
+#define WITH_SHIFT(speed, state, axis, i) ((speed) + (state)[(FIELD_SHIFT_X + (axis)) * stride + (i)])
+#define AND_SHIFT(step, state, axis, i) +(step) * (state)[(FIELD_SHIFT_X + (axis)) * stride + (i)]
 #define KEEP_SHIFT(from, to, axis, i) (to)[(FIELD_SHIFT_X + (axis)) * stride + (i)] = (from)[(FIELD_SHIFT_X + (axis)) * stride + (i)]
 #define FORGET_SHIFT(to, axis, i) (to)[(FIELD_SHIFT_X + (axis)) * stride + (i)] = R(0.0)
 #else
-#define SHIFT_OF(state, axis, i) R(0.0)
+#define WITH_SHIFT(speed, state, axis, i) (speed)
+#define AND_SHIFT(step, state, axis, i)
 #define KEEP_SHIFT(from, to, axis, i)
 #define FORGET_SHIFT(to, axis, i)
 #endif

@@ -163,9 +163,9 @@ __kernel void guard(__constant const parameters_t* p, int count, __global const 
   // the middle of the step is half a step of the first velocity away from its start
   a.step = time_step[0];
   const real back = -R(0.5) * a.step;
-  a.from = make_vector(half_state[FIELD_X * stride + i] + back * (half_state[FIELD_U * stride + i] + SHIFT_OF(half_state, 0, i)),
-                       half_state[FIELD_Y * stride + i] + back * (half_state[FIELD_V * stride + i] + SHIFT_OF(half_state, 1, i)),
-                       half_state[FIELD_Z * stride + i] + back * (half_state[FIELD_W * stride + i] + SHIFT_OF(half_state, 2, i)));
+  a.from = make_vector(half_state[FIELD_X * stride + i] + back * WITH_SHIFT(half_state[FIELD_U * stride + i], half_state, 0, i),
+                       half_state[FIELD_Y * stride + i] + back * WITH_SHIFT(half_state[FIELD_V * stride + i], half_state, 1, i),
+                       half_state[FIELD_Z * stride + i] + back * WITH_SHIFT(half_state[FIELD_W * stride + i], half_state, 2, i));
   a.u = state[FIELD_U * stride + i];
   a.v = DIMENSIONS == 3 ? state[FIELD_V * stride + i] : R(0.0);
   a.w = state[FIELD_W * stride + i];

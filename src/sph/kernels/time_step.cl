@@ -54,7 +54,7 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   const real half_step = R(0.5) * time_step[0];
   for (int axis = 0; axis < 3; ++axis) {
     const real speed = state[(FIELD_U + axis) * stride + i];
-    const real motion = speed + SHIFT_OF(state, axis, i);
+    const real motion = WITH_SHIFT(speed, state, axis, i);
     half_state[(FIELD_X + axis) * stride + i] = state[(FIELD_X + axis) * stride + i] + half_step * motion;
     if (IS_LONG(axis)) move_from(state, half_state, stride, axis, i, half_step * motion);
     half_state[(FIELD_U + axis) * stride + i] = speed;
@@ -100,7 +100,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
     const real before = state[(FIELD_U + axis) * stride + i];
     const real after = (before + step * rates[(RATE_U + axis) * stride + i]) / (R(1.0) + step * p->damping);
     state[(FIELD_U + axis) * stride + i] = after;
-    move(state, stride, axis, i, R(0.5) * step * (before + after) + step * SHIFT_OF(state, axis, i));
+    move(state, stride, axis, i, R(0.5) * step * (before + after) AND_SHIFT(step, state, axis, i));
   }
   wrap(p, state, stride, i);
   // lost in all: of the middle nothing is left to tell it by
@@ -149,7 +149,7 @@ __kernel void go_on_trial(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
     __global real* sum_x = sum + (SUM_X + axis) * stride + i;
     __global real* sum_u = sum + (SUM_U + axis) * stride + i;
-    const real motion = speed + SHIFT_OF(now, axis, i);
+    const real motion = WITH_SHIFT(speed, now, axis, i);
     *sum_x = (first ? R(0.0) : *sum_x) + weight * motion;
     *sum_u = (first ? R(0.0) : *sum_u) + weight * acceleration;
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * motion;
@@ -195,7 +195,7 @@ __kernel void take_sum(__constant const parameters_t* p, int count, __global rea
     start[axis] = now[(FIELD_X + axis) * stride + i];
     const real speed = trial[(FIELD_U + axis) * stride + i];
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
-    move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * (speed + SHIFT_OF(now, axis, i))));
+    move(now, stride, axis, i, step * (sum[(SUM_X + axis) * stride + i] + weight * WITH_SHIFT(speed, now, axis, i)));
     now[(FIELD_U + axis) * stride + i] += step * (sum[(SUM_U + axis) * stride + i] + weight * acceleration);
   }
   end_step(p, now, trial, stride, i, rates, start, step, sum, weight);
@@ -212,7 +212,7 @@ __kernel void predict_end(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * speed;
     sum[(SUM_U + axis) * stride + i] = R(0.5) * acceleration;
     trial[(FIELD_U + axis) * stride + i] = speed + step * acceleration;
-    const real motion = speed + step * acceleration + SHIFT_OF(now, axis, i);
+    const real motion = WITH_SHIFT(speed + step * acceleration, now, axis, i);
     trial[(FIELD_X + axis) * stride + i] = now[(FIELD_X + axis) * stride + i] + step * motion;
     if (IS_LONG(axis)) move_from(now, trial, stride, axis, i, step * motion);
     KEEP_SHIFT(now, trial, axis, i);
@@ -237,7 +237,7 @@ __kernel void correct_end(__constant const parameters_t* p, int count, __global 
     const real acceleration = rates[(RATE_U + axis) * stride + i] - p->damping * trial[(FIELD_U + axis) * stride + i];
     const real after = before + step * (sum[(SUM_U + axis) * stride + i] + R(0.5) * acceleration);
     now[(FIELD_U + axis) * stride + i] = after;
-    move(now, stride, axis, i, R(0.5) * step * (before + after) + step * SHIFT_OF(now, axis, i));
+    move(now, stride, axis, i, R(0.5) * step * (before + after) AND_SHIFT(step, now, axis, i));
   }
   end_step(p, now, trial, stride, i, rates, start, step, sum, R(0.5));
 }
