@@ -22,7 +22,9 @@ Expression::Expression(const std::string& text) : parser_(std::make_unique<Parse
     parser_->parser.SetExpr(text);
     parser_->parser.Eval();
   } catch (const mu::Parser::exception_type& failure) {
-    const std::string place = failure.GetPos() >= 0 && failure.GetPos() < static_cast<int>(text.size()) ? " at its character " + std::to_string(failure.GetPos() + 1) : " at its end";
+    const std::string place = failure.GetPos() >= 0 && failure.GetPos() < static_cast<int>(text.size())
+                                  ? " at its character " + std::to_string(failure.GetPos() + 1)
+                                  : " at its end";
     throw Error("\"" + text + "\" is no expression of x, y and z: " + failure.GetMsg() + place);
   }
 }
