@@ -10,6 +10,7 @@
 //
 // What the diffusion does steadily is taken out of it. At rest the sums of the momentum want some excess of pressure in the uppermost row; the diffusion
 // would carry it downwards, the row sink and be compressed again, and so pump pressure into the whole depth.
+//
 // For continuity.cl, and for rates.cl, which finds accelerations in the same sweep.
 #include "density_diffusion.cl"
 

@@ -1,5 +1,6 @@
 // Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
-// Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where particles exchange mass, γ beside them. As pair.cl has them in the array.
+// Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where
+// particles exchange mass, γ beside them. As pair.cl has them in the array.
 #include "walls.cl"
 #include "pair.cl"
 #define SWEEP_PARTICLES

@@ -50,15 +50,11 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->normal_x += nearer * (n.x - a->normal_x);
   a->normal_y += nearer * (n.y - a->normal_y);
   a->normal_z += nearer * (n.z - a->normal_z);
-#if SHIFT_BY_APPROACH || SHIFT_TENSILE || SHIFT_SMOOTHS
   const tile distance = sqrt(r2);
   const tile volume = near_volume(&a->near, j);
-#endif
-#if SHIFT_BY_APPROACH || SHIFT_TENSILE
   const tile slope_volume = kernel_slopes(p, distance) * volume;
-#endif
 #if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, volume, a->u, a->v, a->w);
+  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, slope_volume, a->u, a->v, a->w);
 #endif
 #if SHIFT_BY_APPROACH
 #if GHOSTS

@@ -7,16 +7,10 @@ namespace {
 
 using Source = ParameterSource;
 
-/// W(Δx) of W = α (1−q/2)⁴ (1+2q), in α.
-double kernel_at_spacing(const Source& s) {
-  const double q = s.discretisation.spacing / s.discretisation.smoothing_length;
-  return std::pow(1 - 0.5 * q, 4) * (1 + 2 * q);
-}
-
-/// α, per m^d.
-double kernel_scale(const Source& s) {
-  const double h = s.discretisation.smoothing_length, pi = std::acos(-1.0);
-  return s.discretisation.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
+/// W(Δx), per m^d.
+double kernel_at_spacing(const Discretisation& d) {
+  const double q = d.spacing / d.smoothing_length;
+  return kernel_scale(d) * std::pow(1 - 0.5 * q, 4) * (1 + 2 * q);
 }
 
 }  // namespace
@@ -29,7 +23,7 @@ Method shifting_of(const Case& scene) {
       {ParticleArray::state, {"shift_x", "shift_y", "shift_z"}, "m/s", "δu, found at a step's start and held throughout", true}};
   method.parameters = {
       {"expected_speed", "m/s", "greatest one expected", [](const Source& s) { return s.scene.numerics.expected_speed.value(); }},
-      {"inverse_kernel_at_spacing", "m^d", "1/W(Δx)", [](const Source& s) { return 1 / (kernel_scale(s) * kernel_at_spacing(s)); }},
+      {"inverse_kernel_at_spacing", "m^d", "1/W(Δx)", [](const Source& s) { return 1 / kernel_at_spacing(s.discretisation); }},
       {"tensile", "", "factor of (W/W(Δx))⁴ in the concentration's gradient",
        [](const Source& s) { return s.scene.numerics.tensile == Tensile::plain ? 0.0 : 0.2; }},
       {"tensile_by_walls", "", "1: also within the support of a wall",

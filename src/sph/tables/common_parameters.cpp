@@ -9,12 +9,6 @@ using Source = ParameterSource;
 
 constexpr double everywhere = 1e30;  // m, higher than any rim
 
-/// α of W = α (1−q/2)⁴ (1+2q).
-double kernel_scale(const Discretisation& d) {
-  const double h = d.smoothing_length, pi = std::acos(-1.0);
-  return d.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
-}
-
 double rim(const Source& s) {
   const Discretisation& d = s.discretisation;
   return d.splash_guard ? d.top.way * (d.rim - d.origin[d.top.axis]) : everywhere;
@@ -103,6 +97,11 @@ std::vector<ParameterRow> make_rows() {
 }
 
 }  // namespace
+
+double kernel_scale(const Discretisation& d) {
+  const double h = d.smoothing_length, pi = std::acos(-1.0);
+  return d.dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
+}
 
 const std::vector<ParameterRow>& common_parameters() {
   static const std::vector<ParameterRow> rows = make_rows();

@@ -31,6 +31,9 @@ struct ParameterRow {
   Kind kind = Kind::real;
 };
 
+/// α of Wendland's W = α (1−q/2)⁴ (1+2q), q = r/h; per m^d.
+double kernel_scale(const Discretisation& discretisation);
+
 /// Those that every case has.
 const std::vector<ParameterRow>& common_parameters();
 
