@@ -22,10 +22,12 @@ Expression::Expression(const std::string& text) : parser_(std::make_unique<Parse
     parser_->parser.SetExpr(text);
     parser_->parser.Eval();
   } catch (const mu::Parser::exception_type& failure) {
-    const std::string place = failure.GetPos() >= 0 && failure.GetPos() < static_cast<int>(text.size())
-                                  ? " at its character " + std::to_string(failure.GetPos() + 1)
-                                  : " at its end";
-    throw Error("\"" + text + "\" is no expression of x, y and z: " + failure.GetMsg() + place);
+    const int at = failure.GetPos();
+    const std::string place =
+        at >= 0 && at < static_cast<int>(text.size()) ? "at its character " + std::to_string(at + 1) : std::string("at its end");
+    std::string what = failure.GetMsg();
+    what = what.substr(0, what.find(" found at position"));  // which counts from 0
+    throw Error("\"" + text + "\" is no expression of x, y and z: " + what + ", " + place);
   }
 }
 

@@ -62,6 +62,15 @@ TEST(Schedule, OfEveryIntegratorIsSoundAndKnowsItsDrift) {
   }
 }
 
+TEST(Schedule, WhatComesFirstIsReadByWhatMoves) {
+  Schedule schedule("shifted", at("now", {"position"}),
+                    {{"sort", at("now", {"position"}), at("now", {"position"}), [] {}, 0, false, true},
+                     {"drift", at("now", {"position"}), at("now", {"position"}), [] {}, 1}});
+  schedule.begin_with({"shifts", at("now", {"position"}), at("now", {"shift"}), [] {}});
+  EXPECT_EQ(error_of([&] { schedule.check(); }),
+            "integrator shifted: stage 'drift' reads shift (now), which stage 'sort' has left in the order of before.");
+}
+
 TEST(Schedule, IsAPage) {
   const std::string page = schedule_page(Case());
   EXPECT_NE(page.find("One time step of integrator symplectic."), std::string::npos) << page;

@@ -46,6 +46,8 @@ Schedule::Schedule(std::string integrator, std::vector<Access> kept, std::vector
 void Schedule::begin_with(Stage stage) {
   for (const Access& access : stage.reads)
     if (std::find(kept_.begin(), kept_.end(), access) == kept_.end()) kept_.push_back(access);
+  for (Stage& later : stages_)
+    if (later.moves > 0) later.reads = later.reads + stage.writes;
   stages_.insert(stages_.begin(), std::move(stage));
 }
 

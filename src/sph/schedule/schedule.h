@@ -37,7 +37,7 @@ class Schedule {
   /// `kept`: what a step begins with and leaves to the next one.
   Schedule(std::string integrator, std::vector<Access> kept, std::vector<Stage> stages);
 
-  /// Puts a stage before all others; a step begins with walls too then.
+  /// Puts a stage before all others, whose results every stage reads that moves particles. A step begins with what it reads.
   void begin_with(Stage stage);
   /// Throws Error, in one sentence, if a stage reads what nothing has written, or what a sort has left behind, or if a step does not leave
   /// what the next one begins with.
