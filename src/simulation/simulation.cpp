@@ -249,18 +249,18 @@ EnergySample Simulation::energies() const { return parts_->recorder.energies(*pa
 
 namespace {
 
-ParticleCloud cloud_of(const FluidState& fluid, double time, double density, bool surface_only) {
+ParticleCloud cloud_of(const FluidState& fluid, const FluidSurface& surface, double time, double density, bool surface_only) {
   ParticleCloud cloud;
   cloud.time = time;
   for (std::size_t i = 0; i < fluid.id.size(); ++i) {
-    if (surface_only && fluid.surface[i] == 0) continue;
+    if (surface_only && surface.on_surface[i] == 0) continue;
     cloud.id.push_back(fluid.id[i]);
     cloud.position.push_back(fluid.position[i].cast<float>());
     cloud.velocity.push_back(fluid.velocity[i].cast<float>());
     cloud.pressure.push_back(static_cast<float>(fluid.pressure[i]));
     cloud.density.push_back(static_cast<float>(density * (1.0 + fluid.compression[i])));
-    cloud.shepard.push_back(static_cast<float>(fluid.shepard[i]));
-    cloud.surface.push_back(fluid.surface[i]);
+    cloud.shepard.push_back(static_cast<float>(surface.shepard[i]));
+    cloud.surface.push_back(surface.on_surface[i]);
   }
   return cloud;
 }
@@ -268,11 +268,11 @@ ParticleCloud cloud_of(const FluidState& fluid, double time, double density, boo
 }  // namespace
 
 ParticleCloud Simulation::particles() const {
-  return cloud_of(parts_->solver->download(), parts_->time, parts_->scene.fluid.density, false);
+  return cloud_of(parts_->solver->download(), parts_->solver->find_surface(), parts_->time, parts_->scene.fluid.density, false);
 }
 
 ParticleCloud Simulation::free_surface() const {
-  return cloud_of(parts_->solver->download(), parts_->time, parts_->scene.fluid.density, true);
+  return cloud_of(parts_->solver->download(), parts_->solver->find_surface(), parts_->time, parts_->scene.fluid.density, true);
 }
 
 const Case& Simulation::scene() const { return parts_->scene; }

@@ -5,21 +5,29 @@
 namespace wavetank {
 
 template <class Real>
-GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners,
-                                   int report_place)
-    : hits(device, particles),
-      takers(device, gives ? field::guard_owners * static_cast<std::size_t>(stride) : 1),
-      lost(device, gives ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1),
-      device_(device),
+GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners, int report_place)
+    : device_(device),
       gives_(gives),
-      particles_(particles),
-      stride_(stride),
-      chunks_(chunks_of(particles)),
       owners_(static_cast<int>(owners)),
       values_(gives ? owners * field::impulse_count : 0, 0.0),
       report_place_(report_place),
-      value_count_(static_cast<int>(values_.size())),
-      parts_(device, values_.size() * chunks_) {}
+      value_count_(static_cast<int>(values_.size())) {
+  reserve(stride);
+}
+
+template <class Real>
+void GuardImpulses<Real>::reserve(Stride stride) {
+  hits = compute::Buffer<int>(device_, stride);
+  takers = compute::Buffer<int>(device_, gives_ ? field::guard_owners * static_cast<std::size_t>(stride) : 1);
+  lost = compute::Buffer<Real>(device_, gives_ ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1);
+  parts_ = compute::Buffer<Real>(device_, values_.size() * chunks_of(static_cast<int>(stride)));
+}
+
+template <class Real>
+void GuardImpulses<Real>::clear_hits(int first, int count) {
+  const std::vector<int> none(count, 0);
+  hits.memory().write(none.data(), count * sizeof(int), first * sizeof(int));
+}
 
 template <class Real>
 void GuardImpulses<Real>::add_to(compute::Arguments& arguments) {
@@ -38,9 +46,9 @@ void GuardImpulses<Real>::bind(const KernelMaker& make, const compute::Arguments
 }
 
 template <class Real>
-void GuardImpulses<Real>::gather() {
-  chunk_kernel_.launch(chunks_);
-  sums_.sum(chunks_);
+void GuardImpulses<Real>::gather(int chunks) {
+  chunk_kernel_.launch(chunks);
+  sums_.sum(chunks);
   total_kernel_.launch(value_count_);
   gathered_ = true;
 }

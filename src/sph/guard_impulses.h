@@ -13,7 +13,7 @@ template <class Real>
 class GuardImpulses {
  public:
   /// `gives`: bodies, or the tank, get what the guard takes; `report_place`: where the step's report has it.
-  GuardImpulses(const compute::Device& device, bool gives, int particles, Stride stride, std::size_t owners, int report_place);
+  GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners, int report_place);
 
   /// Names what the guard writes. This must stay where it is once that is done.
   void add_to(compute::Arguments& arguments);
@@ -21,8 +21,12 @@ class GuardImpulses {
   void bind(const KernelMaker& make, const compute::Arguments& arguments);
 
   bool gives() const { return gives_; }
-  /// Queues the sums of what the guard has just taken, for the step's report.
-  void gather();
+  /// Queues the sums of what the guard has just taken, for the step's report; of so many chunks of particles.
+  void gather(int chunks);
+  /// Room for particles so far apart, without hits.
+  void reserve(Stride stride);
+  /// Of so many particles from the first of them on.
+  void clear_hits(int first, int count);
   /// The report as it came from the device.
   void read(const std::vector<Real>& report);
   /// No hits, and nothing taken.
@@ -37,9 +41,7 @@ class GuardImpulses {
  private:
   compute::Device device_;
   bool gives_;
-  int particles_;
-  Stride stride_;
-  int chunks_, owners_;
+  int owners_;
   std::vector<double> values_;
   int report_place_;
   bool gathered_ = false;  ///< and not yet read

@@ -7,6 +7,9 @@ namespace wavetank {
 /// From a field of an array to the next, as kernels take it (long): fields times particles pass what an int holds.
 using Stride = std::int64_t;
 
+/// That has room for so many particles: whole vectors, and one more, since a tile may read beyond the last particle.
+inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; }
+
 /// Fields of the walls, and sizes, as the kernels have them.
 namespace field {
 enum Wall {
@@ -50,6 +53,7 @@ constexpr int guard_owners = 2;
 constexpr int facing_owners = 2;
 constexpr int impulse_count = 6;
 constexpr int energy_count = 7;
+constexpr int drain_count = 12;
 constexpr int reduce_chunk = 256;
 constexpr int scan_block = 256;
 }  // namespace field

@@ -9,16 +9,21 @@ int blocks_of(int values) { return (values + field::scan_block - 1) / field::sca
 
 ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particles)
     : slots_(slots),
-      particles_(particles),
-      blocks_(blocks_of(slots)),
+      all_slots_(slots + 1),
+      blocks_(blocks_of(all_slots_)),
       groups_(blocks_of(blocks_)),
-      counts_(device, slots),
-      starts_(device, slots + 1),
+      counts_(device, all_slots_),
+      starts_(device, all_slots_ + 1),
       block_sums_(device, blocks_ + 1),
       group_sums_(device, groups_),
       block_starts_(device, blocks_ + 1),
       slot_of_(device, particles),
       order_(device, particles) {}
+
+void ParticleGrid::reserve(const compute::Device& device, int particles) {
+  slot_of_ = compute::Buffer<int>(device, particles);
+  order_ = compute::Buffer<int>(device, particles);
+}
 
 void ParticleGrid::bind(const KernelMaker& make, const compute::Arguments& given) {
   compute::Arguments all = given;
@@ -32,17 +37,18 @@ void ParticleGrid::bind(const KernelMaker& make, const compute::Arguments& given
     level.value("count", count).memory("values", values).memory("block_sums", sums).memory("starts", starts);
     return make.exact("grid.cl", kernel, level);
   };
-  sum_blocks_ = scan("scan_blocks", slots_, counts_, block_sums_, starts_);
+  sum_blocks_ = scan("scan_blocks", all_slots_, counts_, block_sums_, starts_);
   sum_groups_ = scan("scan_blocks", blocks_, block_sums_, group_sums_, starts_);
   total_ = make.exact("grid.cl", "scan_totals", compute::Arguments().value("blocks", groups_).memory("block_sums", group_sums_));
   start_blocks_ = scan("scan_starts", blocks_, block_sums_, group_sums_, block_starts_);
-  start_slots_ = scan("scan_starts", slots_, counts_, block_starts_, starts_);
+  start_slots_ = scan("scan_starts", all_slots_, counts_, block_starts_, starts_);
   scatter_ = make.exact("grid.cl", "scatter", all);
   settle_ = make.exact("grid.cl", "settle_slots", all);
   reorder_ = make.exact("grid.cl", "reorder", all);
 }
 
-void ParticleGrid::sort() const {
+void ParticleGrid::sort(int particles) {
+  particles_ = particles;
   count_.launch(particles_);
   sum_blocks_.launch(blocks_);
   sum_groups_.launch(groups_);

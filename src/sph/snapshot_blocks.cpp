@@ -83,11 +83,20 @@ void SnapshotBlocks::put(const std::string& name, const std::vector<T>& values) 
   if (!values.empty()) std::memcpy(block.bytes.data(), values.data(), block.bytes.size());
 }
 
-template <class T>
-std::vector<T> SnapshotBlocks::get(const std::string& name, std::size_t count) const {
+const SnapshotBlocks::Block& SnapshotBlocks::block(const std::string& name) const {
   const auto found = blocks_.find(name);
   if (found == blocks_.end()) throw Error("the snapshot has no \"" + name + "\", which this case needs.");
-  const Block& block = found->second;
+  return found->second;
+}
+
+template <class T>
+std::vector<T> SnapshotBlocks::get(const std::string& name) const {
+  return get<T>(name, block(name).bytes.size() / sizeof(T));
+}
+
+template <class T>
+std::vector<T> SnapshotBlocks::get(const std::string& name, std::size_t count) const {
+  const Block& block = this->block(name);
   if (block.value_size != sizeof(T) || block.bytes.size() != count * sizeof(T))
     throw Error("the snapshot's \"" + name + "\" has " + std::to_string(block.bytes.size() / std::max(block.value_size, 1U)) +
                 " values of " + std::to_string(block.value_size) + " bytes, but this case's has " + std::to_string(count) + " of " +
@@ -107,6 +116,7 @@ template void SnapshotBlocks::put(const std::string&, const std::vector<float>&)
 template void SnapshotBlocks::put(const std::string&, const std::vector<double>&);
 template void SnapshotBlocks::put(const std::string&, const std::vector<std::uint32_t>&);
 template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&, std::size_t) const;
+template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&) const;
 template std::vector<float> SnapshotBlocks::get(const std::string&, std::size_t) const;
 template std::vector<double> SnapshotBlocks::get(const std::string&, std::size_t) const;
 

@@ -26,10 +26,15 @@ class SnapshotBlocks {
   /// Throws Error if the block is missing, or does not hold `count` such values.
   template <class T>
   std::vector<T> get(const std::string& name, std::size_t count) const;
+  /// Of as many values as there are.
+  template <class T>
+  std::vector<T> get(const std::string& name) const;
   /// Throws Error if there are other blocks than these.
   void expect_no_others(const std::vector<std::string>& names) const;
 
  private:
+  const Block& block(const std::string& name) const;
+
   std::map<std::string, Block> blocks_;
 };
 

@@ -32,9 +32,6 @@ double farthest_drift(const Schedule& schedule, const Case& scene, const Discret
   return std::max(0.25 * d.spacing, schedule.drift() * way);
 }
 
-/// Whole vectors, and one more: a tile may read beyond the last particle.
-int padded(int count) { return (count + 31) / 16 * 16; }
-
 }  // namespace
 
 template <class Real>
@@ -44,7 +41,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       case_(scene),
       discretisation_(discretisation),
       count_(static_cast<int>(layout.particles.size())),
-      stride_(padded(count_)),
+      given_(count_),
+      next_id_(count_),
+      stride_(stride_for(count_)),
       chunks_(chunks_of(count_)),
       groups_(chunks_of(chunks_)),
       sources_(kernel_sources()),
@@ -66,14 +65,14 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       gradient_(device, gradient_components(rows.methods(scene)) * static_cast<std::size_t>(stride_)),
       half_(make_array(ParticleArray::state)),
       sum_(rows.integrator(scene, nullptr).writes("sum of rates") ? make_array(ParticleArray::sums) : Buffer(device, 0)),
-      id_(device, count_),
-      spare_id_(device, count_),
+      id_(device, stride_),
+      spare_id_(device, stride_),
       images_(tank_images(scene, layout, discretisation)),
       walls_(case_walls_.arrays<Real>(device)),
       loads_(device, elements_ ? walls_.stride : 1),
       wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty(),
                 farthest_drift(rows.integrator(scene, nullptr), scene, discretisation)),
-      guarded_(device, anything_free(scene), count_, stride_, centres.size(), reports_.size()),
+      guarded_(device, anything_free(scene), stride_, centres.size(), reports_.size()),
       report_(device, static_cast<std::size_t>(reports_.size()) + guarded_.values().size()),
       watches_(device, static_cast<std::size_t>(chunks_) * reports_.greatest_count()),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
@@ -100,10 +99,11 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   upload_parameters(*values_);
   surroundings_.stride = stride_;
   surroundings_.reach = static_cast<Real>(discretisation_.support);
-  surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), count_);
+  surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), static_cast<int>(stride_));
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
+  SphSolver::set_drains({});
   if (owners_move) moving_walls_.emplace(device, walls_, moving_, centres_, layout, discretisation_);
   bind_kernels();
   set_wall_motions(at_start);
@@ -141,7 +141,7 @@ void SphSolver<Real>::upload_parameters(const ParameterBlock& values) {
 template <class Real>
 void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<Real> state(state_.size(), Real(0));
-  std::vector<std::uint32_t> id(count_);
+  std::vector<std::uint32_t> id(stride_);
   Real* const mass = component(state, "mass");
   Real* const volume = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
@@ -238,7 +238,8 @@ void SphSolver<Real>::set_film(const std::vector<FilmLump>& lumps) {
 
 template <class Real>
 void SphSolver<Real>::sort() {
-  surroundings_.grid.sort();
+  add_waiting();
+  surroundings_.grid.sort(count_);
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
   surroundings_.reach = static_cast<Real>(discretisation_.support);
@@ -318,11 +319,11 @@ void SphSolver<Real>::walls_to_end() {
 template <class Real>
 void SphSolver<Real>::guard() {
   kernels_.guard.launch(count_);
-  if (guarded_.gives() && mover_ != nullptr) guarded_.gather();
+  if (guarded_.gives() && mover_ != nullptr) guarded_.gather(chunks_);
 }
 
 template <class Real>
-void SphSolver<Real>::find_surface() {
+void SphSolver<Real>::sweep_surface() {
   kernels_.normals.launch(count_);
   kernels_.cone.launch(count_);
 }
@@ -330,7 +331,7 @@ void SphSolver<Real>::find_surface() {
 template <class Real>
 void SphSolver<Real>::find_shifts() {
   if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
-  find_surface();
+  sweep_surface();
   kernels_.shifts.launch(count_);
   // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts
   if (case_.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume")) find_compression_rates(Slot::now);
@@ -424,6 +425,7 @@ StepReport SphSolver<Real>::watch() {
   report.too_fast = count("fast");
   report.guard_hits = count("guarded");
   report.shepard_bounded = count("bounded");
+  set_count(count("particles"));
   for (std::size_t k = common_reports().size(); k < reports_.rows().size(); ++k) {
     const ReportRow& row = reports_.rows()[k];
     report.more[row.name] = row.kind == ReportRow::Kind::greatest ? greatest(row.name.c_str()) : count(row.name.c_str());

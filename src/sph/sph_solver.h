@@ -8,6 +8,7 @@
 #include "bound_kernels.h"
 #include "build_options.h"
 #include "case_walls.h"
+#include "drains.h"
 #include "guard_impulses.h"
 #include "integrators/integrator.h"
 #include "kernel_parameters.h"
@@ -21,8 +22,8 @@
 
 namespace wavetank {
 
-/// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_readings.cpp and
-/// sph_solver_snapshot.cpp.
+/// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_population.cpp (how many particles
+/// there are), sph_solver_readings.cpp and sph_solver_snapshot.cpp.
 template <class Real>
 class SphSolver final : public Solver, private StepEngine {
  public:
@@ -38,6 +39,8 @@ class SphSolver final : public Solver, private StepEngine {
   void limit_time_step(double limit) override { time_step_limit_ = limit; }
   double shorten_step(double longest) override;
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
+  void let_in(const NewParticles& particles) override;
+  void set_drains(const std::vector<Drain>& drains) override;
   std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
@@ -45,6 +48,7 @@ class SphSolver final : public Solver, private StepEngine {
   FluidEnergies energies() override;
   LostVolume lost_volume() override;
   FluidState download() override;
+  FluidSurface find_surface() override;
   PairCount count_pairs() override;
   std::vector<char> save() const override;
   void restore(const std::vector<char>& bytes) override;
@@ -69,6 +73,13 @@ class SphSolver final : public Solver, private StepEngine {
   Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
   Eigen::Vector3d velocity_of(const std::vector<Real>& state, int i) const;
   void upload_particles(const Layout& layout);
+  void set_count(int count);
+  /// Room for so many particles at least.
+  void reserve(int count);
+  /// Those that wait to come in take the next places.
+  void add_waiting();
+  bool may_come_or_go() const { return next_id_ != given_ || drains_.count() > 0; }
+  std::vector<int> order_by_id(const std::vector<std::uint32_t>& id) const;
   void upload_rates(const std::vector<Real>& by_id);
   compute::Arguments arguments() const;
   compute::Arguments arguments_of(Slot state) const;
@@ -117,7 +128,7 @@ class SphSolver final : public Solver, private StepEngine {
   void place_walls(const WallMotions& motions);
   void place_barriers();
   void load_walls(Slot state);
-  void find_surface();
+  void sweep_surface();
   void find_gradients(Slot state);
   StepReport watch();
   void describe_offender(StepReport& report, int first) const;
@@ -141,8 +152,12 @@ class SphSolver final : public Solver, private StepEngine {
   compute::Device device_;
   Case case_;
   Discretisation discretisation_;
-  int count_ = 0;
-  Stride stride_ = 0;
+  int count_ = 0;  ///< of particles; those that leave in a step are left out when it has been watched
+  int given_ = 0;  ///< at the start
+  std::int64_t next_id_ = 0;
+  NewParticles waiting_;  ///< to come in
+  Drains<Real> drains_;
+  Stride stride_ = 0;  ///< at least that many particles have room
   int chunks_ = 0;
   int groups_ = 0;  ///< chunks of chunks
   BuildOptions options_;

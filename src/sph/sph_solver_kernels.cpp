@@ -26,7 +26,9 @@ void SphSolver<Real>::bind_kernels() {
   bind_sweeps();
   bind_time_step();
   bind_reductions();
-  surroundings_.grid.bind(*make_, arguments().memory("half_state", half_).memory("spare_id", spare_id_));
+  compute::Arguments sorting = arguments();
+  drains_.add_to(sorting);
+  surroundings_.grid.bind(*make_, sorting.memory("half_state", half_).memory("spare_id", spare_id_));
   wrenches_.bind(*make_, {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
   guarded_.bind(*make_, arguments().memory("report", report_));
   if (moving_walls_) moving_walls_->bind(*make_, arguments(), walls_);
@@ -81,7 +83,7 @@ template <class Real>
 void SphSolver<Real>::bind_reductions() {
   const auto kernel = [&](const char* name, const compute::Arguments& writes) { return make_->exact("reduce.cl", name, writes); };
   compute::Arguments watching = arguments();
-  watching.memory("watches", watches_).memory("alarms", alarms_);
+  watching.memory("watches", watches_).memory("alarms", alarms_).value("slots", surroundings_.grid.slots());
   kernels_.watch_chunks = kernel("watch_chunks", watching);
   watching.memory("group_watches", group_watches_).memory("group_alarms", group_alarms_).value("chunks", chunks_);
   kernels_.watch_groups = kernel("watch_groups", watching);

@@ -102,12 +102,8 @@ LostVolume SphSolver<Real>::lost_volume() {
 template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
-  around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
-  find_surface();
-  const std::vector<Real> around = around_.download();
-  around_ = Buffer();
   FluidState fluid;
-  fluid.id = id_.download();
+  fluid.id = id_.download(count_);
   const Real* const pressure = component(state, "pressure");
   const Real* const compression = component(state, "compression");
   const Real* const mass = component(state, "mass");
@@ -117,10 +113,22 @@ FluidState SphSolver<Real>::download() {
     fluid.pressure.push_back(pressure[i]);
     fluid.compression.push_back(compression[i]);
     fluid.mass.push_back(mass[i]);
-    fluid.surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);
-    fluid.shepard.push_back(around[field::around_shepard * stride_ + i]);
   }
   return fluid;
+}
+
+template <class Real>
+FluidSurface SphSolver<Real>::find_surface() {
+  around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
+  sweep_surface();
+  const std::vector<Real> around = around_.download();
+  around_ = Buffer();
+  FluidSurface found;
+  for (int i = 0; i < count_; ++i) {
+    found.on_surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);
+    found.shepard.push_back(around[field::around_shepard * stride_ + i]);
+  }
+  return found;
 }
 
 template <class Real>
@@ -139,6 +147,7 @@ template std::vector<WallWrench> SphSolver<float>::wrenches();
 template FluidEnergies SphSolver<float>::energies();
 template LostVolume SphSolver<float>::lost_volume();
 template FluidState SphSolver<float>::download();
+template FluidSurface SphSolver<float>::find_surface();
 template PairCount SphSolver<float>::count_pairs();
 template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vector<Eigen::Vector3d>&) const;
 template std::vector<PointValue> SphSolver<double>::evaluate(const PointSet&);
@@ -146,6 +155,7 @@ template std::vector<WallWrench> SphSolver<double>::wrenches();
 template FluidEnergies SphSolver<double>::energies();
 template LostVolume SphSolver<double>::lost_volume();
 template FluidState SphSolver<double>::download();
+template FluidSurface SphSolver<double>::find_surface();
 template PairCount SphSolver<double>::count_pairs();
 
 }  // namespace wavetank

@@ -2,17 +2,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "equation_of_state.h"
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/expression.h"
 
 namespace wavetank {
 namespace {
-
-/// The compression at which the water has a pressure, in ρ₀ c₀².
-double compression_at(double head, const Case& scene) {
-  return scene.numerics.equation_of_state == EquationOfState::cole ? std::pow(std::max(1.0 + 7.0 * head, 0.0), 1.0 / 7.0) - 1.0 : head;
-}
 
 double finite_at(const Expression& expression, const Eigen::Vector3d& place, const std::string& key) {
   const double value = expression.at(place);
@@ -26,6 +22,7 @@ double finite_at(const Expression& expression, const Eigen::Vector3d& place, con
 
 template <class Real>
 StepReport SphSolver<Real>::start() {
+  if (may_come_or_go() && next_id_ != given_) throw Error("the start of a case was asked for when particles had come in already");
   set_hydrostatic();
   start_at_rest();
   return start_as_given();

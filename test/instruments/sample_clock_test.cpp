@@ -45,6 +45,7 @@ class ClockedFluid final : public Solver {
   FluidEnergies energies() override { return {time, 0, 0, 1}; }
   LostVolume lost_volume() override { return {}; }
   FluidState download() override { return {}; }
+  FluidSurface find_surface() override { return {}; }
   PairCount count_pairs() override { return {}; }
   std::vector<char> save() const override { return {}; }
   void restore(const std::vector<char>&) override {}

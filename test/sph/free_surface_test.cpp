@@ -12,8 +12,9 @@ std::vector<bool> surface_of(Case scene, const Layout& layout) {
   const auto solver = make_solver(test_device(), scene, layout, discretise(scene, layout), {Vector3d::Zero()});
   solver->start();
   const FluidState fluid = solver->download();
+  const FluidSurface found = solver->find_surface();
   std::vector<bool> surface(fluid.id.size());
-  for (std::size_t i = 0; i < fluid.id.size(); ++i) surface[fluid.id[i]] = fluid.surface[i] != 0;
+  for (std::size_t i = 0; i < fluid.id.size(); ++i) surface[fluid.id[i]] = found.on_surface[i] != 0;
   return surface;
 }
 

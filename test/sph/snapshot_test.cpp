@@ -59,7 +59,7 @@ TEST_F(SolverSnapshot, IsRefusedAsAWhole) {
   SnapshotBlocks foreign(saved);
   foreign.put("particles: salt", std::vector<float>{1});
   expect_refused(foreign.bytes(), "\"particles: salt\", which this case does not know");
-  expect_refused(SnapshotBlocks().bytes(), "has no \"particles: x\"");
+  expect_refused(SnapshotBlocks().bytes(), "has no \"particles: id\"");
   SnapshotBlocks other_size(saved);
   other_size.put("particles: mass", std::vector<double>(tank.solver->particle_count()));
   expect_refused(other_size.bytes(), "values of 8 bytes");

@@ -229,6 +229,7 @@ TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
       solver->set_wall_motions({motions, {}});  // after the start, which finds no rates then: the step's first half changes no density
       ASSERT_TRUE(solver->advance().valid());
       const FluidState fluid = solver->download();
+      const std::vector<double> shepard = solver->find_surface().shepard;
 
       Comparison compression, drag;
       int members[2] = {0, 0};
@@ -240,10 +241,10 @@ TEST(WallMotion, WallsCompressAndDragTheWaterWithTheirOwnVelocity) {
         const WallMotion& motion = motions[seen->owner];
         const Vector3d n = seen->normal, foot = place + seen->distance * n;
         const Vector3d velocity = motion.velocity + motion.angular_velocity.cross(foot - centres[seen->owner]);
-        const double weight = whole_weight(d, seen->distance) / fluid.shepard[i];
+        const double weight = whole_weight(d, seen->distance) / shepard[i];
         const auto along = [&n](const Vector3d& v) { return Vector3d(v - v.dot(n) * n); };
         // by √γ, not γ: see continuity.cl
-        compression.add(2 * fluid.compression[i] / step * n, -velocity.dot(n) * weight * std::sqrt(fluid.shepard[i]) * n);
+        compression.add(2 * fluid.compression[i] / step * n, -velocity.dot(n) * weight * std::sqrt(shepard[i]) * n);
         const double friction =
             2 * tank.scene.fluid.viscosity * weight / (tank.scene.fluid.density * std::max(seen->distance, 0.5 * d.spacing));
         drag.add(along(fluid.velocity[i]) / step, friction * along(velocity));

@@ -139,8 +139,26 @@ struct FluidState {
   std::vector<double> pressure;           ///< Pa
   std::vector<double> compression;        ///< ρ/ρ₀ − 1
   std::vector<double> mass;               ///< kg (2-D: kg/m)
-  std::vector<double> shepard;            ///< γ
-  std::vector<std::uint8_t> surface;      ///< 1 on the free surface
+};
+
+/// Particles that come into the water, as many of each.
+struct NewParticles {
+  std::vector<Eigen::Vector3d> position;  ///< m, in the case's coordinates
+  std::vector<Eigen::Vector3d> velocity;  ///< m/s
+  std::vector<double> volume;             ///< m³ (2-D: m²), that the water of each fills at its pressure
+  std::vector<double> pressure;           ///< Pa, gauge
+};
+
+/// A box in which particles leave the water; its edges need not be along the axes.
+struct Drain {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();          ///< m, in the case's coordinates
+  Eigen::Matrix3d half_edges = Eigen::Matrix3d::Identity();  ///< m: columns, at right angles, from the centre to the middle of a face
+};
+
+/// What a sweep finds of the particles, in the order of FluidState.
+struct FluidSurface {
+  std::vector<double> shepard;           ///< γ
+  std::vector<std::uint8_t> on_surface;  ///< 1 on the free surface
 };
 
 /// The SPH solver of one fluid between walls, on one device.
@@ -171,6 +189,12 @@ class Solver {
   virtual double shorten_step(double longest) = 0;
 
   virtual std::size_t particle_count() const = 0;
+  /// These come into the water at the end of the next step, in their order, with ids that no particle had before. Memory on the device
+  /// grows with them. (By the symplectic integrator their compressions still change by half that step, as all others do then.) Throws Error
+  /// if the lists are not of one length, or if a value is not finite or a volume not greater than 0.
+  virtual void let_in(const NewParticles& particles) = 0;
+  /// Particles that are in one of these at a step's end are no more in the water then; {}: none.
+  virtual void set_drains(const std::vector<Drain>& drains) = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
   virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;
@@ -182,10 +206,12 @@ class Solver {
   virtual LostVolume lost_volume() = 0;
   virtual FluidState download() = 0;
   /// Of the present positions.
+  virtual FluidSurface find_surface() = 0;
+  /// Of the present positions.
   virtual PairCount count_pairs() = 0;
   /// The exact state, as bytes of this solver's precision: what a restart needs.
   virtual std::vector<char> save() const = 0;
-  /// Throws Error if the bytes are not those of a state of this size.
+  /// Throws Error if the bytes are not those of a state of this case; of as many particles, where none may come or go.
   virtual void restore(const std::vector<char>& bytes) = 0;
   /// Bytes on the device.
   virtual std::size_t device_memory() const = 0;

@@ -2,11 +2,26 @@
 // repeats bit for bit whatever order the work-items run in.
 #include "cells.cl"
 
-// counts must be zero; the scatter leaves them so.
-__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, long stride, __global int* slot_of, __global int* counts) {
+// Whether a place is in a drain: DRAIN_COUNT values each, its centre and three vectors along which its faces are at −1 and 1.
+#define DRAIN_COUNT 12
+INLINE bool drained(real x, real y, real z, int drain_count, __global const real* drains) {
+  for (int k = 0; k < drain_count; ++k) {
+    __global const real* drain = drains + k * DRAIN_COUNT;
+    const real dx = x - drain[0], dy = y - drain[1], dz = z - drain[2];
+    real farthest = R(0.0);
+    for (int side = 3; side < DRAIN_COUNT; side += 3) farthest = fmax(farthest, fabs(dx * drain[side] + dy * drain[side + 1] + dz * drain[side + 2]));
+    if (farthest <= R(1.0)) return true;
+  }
+  return false;
+}
+
+// counts must be zero; the scatter leaves them so. Particles that leave the water get the slot after all others, where nothing looks for neighbours.
+__kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, long stride, int slots, int drain_count,
+                          __global const real* drains, __global int* slot_of, __global int* counts) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const int slot = slot_index(p, state[FIELD_X * stride + i], DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), state[FIELD_Z * stride + i]);
+  const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
+  const int slot = drained(x, y, z, drain_count, drains) ? slots : slot_index(p, x, y, z);
   slot_of[i] = slot;
   atomic_inc(&counts[slot]);
 }

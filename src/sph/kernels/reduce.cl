@@ -35,14 +35,15 @@ INLINE watched_t watched(__constant const parameters_t* p, __global const real* 
 }
 
 __kernel void watch_chunks(__constant const parameters_t* p, int count, __global const real* state, __global const real* rates, long stride,
-                           __global const int* guard_hits, __global real* watches, __global int* alarms) {
+                           __global const int* slot_start, int slots, __global const int* guard_hits, __global real* watches, __global int* alarms) {
   const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= count) return;
+  if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
+  const int end = min(min(count, slot_start[slots]), (chunk + 1) * REDUCE_CHUNK);  // without those that have left
   real greatest[GREATEST_COUNT];
   int counted[COUNTED_COUNT];
   for (int k = 0; k < GREATEST_COUNT; ++k) greatest[k] = R(0.0);
   for (int k = 0; k < COUNTED_COUNT; ++k) counted[k] = is_first(k) ? NOBODY : 0;
-  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+  for (int i = chunk * REDUCE_CHUNK; i < end; ++i) {
     const watched_t found = watched(p, state, rates, stride, guard_hits[i], i);
     watch_particle(&found, p, state, rates, stride, i, greatest, counted);
   }
@@ -129,7 +130,7 @@ __kernel void sum_rows(int rows, int columns, __global const real* from, __globa
 
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global real* energies) {
   const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= count) return;
+  if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
   for (int k = 0; k < ENERGY_COUNT; ++k) sums[k] = rests[k] = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
