@@ -64,6 +64,32 @@ std::string name_of(int dimensions, const char* size, const Smoothing& smoothing
   return "dam_break_" + std::to_string(dimensions) + "d/" + size + "/" + smoothing.name + "/" + diffusion.name + "/" + walls.name;
 }
 
+std::string name_of(int dimensions, const char* size, Scheme scheme, Shifting shifting, Integrator integrator) {
+  return "methods_" + std::to_string(dimensions) + "d/" + size + "/" + word_of(scheme) + "/" + word_of(shifting) + "/" +
+         word_of(integrator);
+}
+
+/// Each scheme with each shifting law and integrator; the density diffusion is the scheme's own choice.
+void add_methods(std::vector<BenchCase>& cases, int dimensions, const Size& size) {
+  const double spacing = spacing_for(dimensions, size.particles);
+  for (const auto& scheme : method_words<Scheme>())
+    for (const auto& law : method_words<Shifting>())
+      for (const auto& integrator : method_words<Integrator>()) {
+        BenchCase result;
+        result.dimensions = dimensions;
+        result.spacing = spacing;
+        result.smoothing = smoothings[0].ratio;
+        result.scheme = scheme.choice;
+        result.shifting = law.choice;
+        result.integrator = integrator.choice;
+        if (scheme.choice != Scheme::delta_sph) result.diffusion = DensityDiffusion::none;
+        result.walls = wall_treatments()[0];
+        result.name = name_of(dimensions, size.name, scheme.choice, law.choice, integrator.choice);
+        result.small_twin = name_of(dimensions, twin_size, scheme.choice, law.choice, integrator.choice);
+        cases.push_back(result);
+      }
+}
+
 BenchCase spheric2_45() {
   BenchCase result;
   result.name = "spheric2_45";
@@ -84,11 +110,20 @@ std::vector<BenchCase> make_all_cases() {
         for (const Diffusion& diffusion : diffusions)
           for (const WallTreatment& walls : wall_treatments()) {
             const char* twin = size.particles > twin_particles ? twin_size : size.name;
-            cases.push_back({name_of(dimensions, size.name, smoothing, diffusion, walls), dimensions, spacing, smoothing.ratio,
-                             diffusion.value, walls, name_of(dimensions, twin, smoothing, diffusion, walls)});
+            BenchCase result;
+            result.name = name_of(dimensions, size.name, smoothing, diffusion, walls);
+            result.dimensions = dimensions;
+            result.spacing = spacing;
+            result.smoothing = smoothing.ratio;
+            result.diffusion = diffusion.value;
+            result.walls = walls;
+            result.small_twin = name_of(dimensions, twin, smoothing, diffusion, walls);
+            cases.push_back(result);
           }
     }
   cases.push_back(spheric2_45());
+  for (const int dimensions : {2, 3})
+    for (const Size& size : {sizes[1], sizes[2]}) add_methods(cases, dimensions, size);
   return cases;
 }
 
@@ -160,6 +195,10 @@ Case make_case(const BenchCase& bench_case, const std::string& device) {
     result.bodies.push_back(body);
   }
   result.numerics.support = 2 * bench_case.smoothing;
+  result.numerics.scheme = bench_case.scheme;
+  result.numerics.shifting = bench_case.shifting;
+  result.numerics.integrator = bench_case.integrator;
+  if (bench_case.scheme != Scheme::delta_sph) result.numerics.artificial_viscosity = 0;  // Riemann problems have their own
   result.numerics.density_diffusion = bench_case.diffusion;
   result.numerics.walls.method = bench_case.walls.method;
   result.numerics.walls.elements = bench_case.walls.elements;

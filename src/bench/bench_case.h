@@ -17,12 +17,15 @@ struct WallTreatment {
 
 /// A stock case: a dam break in the tank of SPHERIC benchmark 2, or in its mid-plane.
 struct BenchCase {
-  std::string name;  ///< "dam_break_3d/100k/h1.73/fourtakas/facet", or one of its own
+  std::string name;  ///< "dam_break_3d/100k/h1.73/fourtakas/facet", "methods_3d/100k/riemann_ale/michel/symplectic", or one of its own
   int dimensions = 3;
   double spacing = 0;    ///< Δx, m
   double smoothing = 0;  ///< h/Δx
   DensityDiffusion diffusion = DensityDiffusion::fourtakas;
   WallTreatment walls;
+  Scheme scheme = Scheme::delta_sph;
+  Shifting shifting = Shifting::none;
+  Integrator integrator = Integrator::symplectic;
   std::string small_twin;  ///< name of a case of at most 30k particles that is built from the very same kernels; may be its own
 };
 

@@ -17,6 +17,7 @@ struct Counter {
 }  // namespace
 
 std::vector<SweepCost> sweep_costs(const BenchCase& bench_case) {
+  if (bench_case.scheme != Scheme::delta_sph || bench_case.integrator != Integrator::symplectic) return {};
   const Counter count{bench_case.dimensions == 2};
   const bool fourtakas = bench_case.diffusion == DensityDiffusion::fourtakas, antuono = bench_case.diffusion == DensityDiffusion::antuono;
   const bool volumetric = bench_case.walls.method != WallMethod::ghost && bench_case.walls.shepard == ShepardFactor::volumetric;

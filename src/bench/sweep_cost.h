@@ -14,7 +14,8 @@ struct SweepCost {
   double bytes = 0;  ///< loaded, if none of it is in registers
 };
 
-/// Of the sweeps over all particles that a step of the case has.
+/// Of the sweeps over all particles that a step of the case has; of δ-SPH with the symplectic integrator, and without those of shifting:
+/// the others are not counted.
 std::vector<SweepCost> sweep_costs(const BenchCase& bench_case);
 
 }  // namespace wavetank::bench

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kept_buffer.h"
-#include "kernel_parameters.h"
+#include "tables/device_sizes.h"
 #include "wavetank/compute/arguments.h"
 #include "wavetank/sph/solver.h"
 

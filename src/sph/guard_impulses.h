@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "kernel_parameters.h"
 #include "row_sums.h"
+#include "tables/device_sizes.h"
 #include "wavetank/compute/buffer.h"
 
 namespace wavetank {

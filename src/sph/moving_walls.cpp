@@ -20,12 +20,12 @@ enum Kind { scalar, place_field, vector_field };
 std::vector<int> kinds_of_fields(WallKind kind, int field_count) {
   std::vector<int> kinds(field_count, scalar);
   kinds[field::wall_x] = place_field;
-  kinds[field::normal_x] = vector_field;
-  if (kind == WallKind::rectangles) kinds[field::tangent_x] = vector_field;
+  kinds[field::wall_normal_x] = vector_field;
+  if (kind == WallKind::rectangles) kinds[field::wall_tangent_x] = vector_field;
   if (kind == WallKind::triangles)
-    for (int k = 0; k < 3; ++k) kinds[field::corners + 3 * k] = vector_field;
+    for (int k = 0; k < 3; ++k) kinds[field::wall_corners + 3 * k] = vector_field;
   if (kind == WallKind::facets) {
-    for (int edge = field::edges; edge < field_count; edge += field::edge_count) {
+    for (int edge = field::wall_edges; edge < field_count; edge += field::edge_count) {
       kinds[edge] = place_field;
       kinds[edge + 3] = vector_field;
     }
@@ -34,9 +34,9 @@ std::vector<int> kinds_of_fields(WallKind kind, int field_count) {
 }
 
 int fields_of(WallKind kind, int dimensions) {
-  if (kind == WallKind::rectangles) return field::rectangle_count;
-  if (kind == WallKind::triangles) return field::triangle_count;
-  return field::edges + (dimensions == 3 ? 3 : 1) * field::edge_count;
+  if (kind == WallKind::rectangles) return field::wall_rectangle_count;
+  if (kind == WallKind::triangles) return field::wall_triangle_count;
+  return field::wall_edges + (dimensions == 3 ? 3 : 1) * field::edge_count;
 }
 
 }  // namespace

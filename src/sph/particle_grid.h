@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bound_kernels.h"
-#include "kernel_parameters.h"
+#include "tables/device_sizes.h"
 
 namespace wavetank {
 

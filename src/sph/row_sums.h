@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bound_kernels.h"
-#include "kernel_parameters.h"
+#include "tables/device_sizes.h"
 
 namespace wavetank {
 

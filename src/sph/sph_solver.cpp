@@ -94,6 +94,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   add_options(rows.methods(scene), options_);
   add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);
+  sources_["sizes.cl"] = sizes_header();
   sources_["fields.cl"] = fields_.header();
   sources_["report.cl"] = reports_.header();
   upload_parameters(*values_);

@@ -101,7 +101,7 @@ void set_edges(const Facet& facet, int s, int dimensions, const InnerEdges& inne
   for (int k = 0; k < (dimensions == 3 ? 3 : 1); ++k) {
     const Vector3d from = facet.corners[k], to = facet.corners[(k + 1) % 3];
     const bool forward = comes_first(from, to);
-    const int edge = field::edges + field::edge_count * k;
+    const int edge = field::wall_edges + field::edge_count * k;
     fields.set_place(edge, s, forward ? from : to);
     fields.set_vector(edge + 3, s, (forward ? to - from : from - to).normalized());
     fields.set(edge + 6, s, (to - from).norm());
@@ -124,19 +124,19 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Wa
   std::vector<Vector3d> centres;
   for (const WallElement& element : elements) centres.push_back(element.centre);
   const CellOrder cells = sorted_by_cell(centres, d);
-  Fields<Real> values(field::rectangle_count, std::max(count, 1), false, d);
+  Fields<Real> values(field::wall_rectangle_count, std::max(count, 1), false, d);
   for (int s = 0; s < count; ++s) {
     const WallElement& element = elements[cells.order[s]];
     values.set_place(field::wall_x, s, element.centre);
-    values.set_vector(field::normal_x, s, element.normal);
+    values.set_vector(field::wall_normal_x, s, element.normal);
     values.set(field::wall_owner, s, element.owner);
     values.set(field::wall_thin, s, thin_value(thin, cells.order[s]));
-    values.set_vector(field::tangent_x, s, element.tangent);
-    values.set(field::area, s, element.area);
-    values.set(field::half_along, s, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
-    values.set(field::half_across, s, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
-    values.set(field::gap_along, s, element.gap[0]);
-    values.set(field::gap_across, s, element.gap[1]);
+    values.set_vector(field::wall_tangent_x, s, element.tangent);
+    values.set(field::wall_area, s, element.area);
+    values.set(field::wall_half_along, s, 0.5 * (d.dimensions == 3 ? std::sqrt(element.area * element.elongation) : element.area));
+    values.set(field::wall_half_across, s, d.dimensions == 3 ? 0.5 * std::sqrt(element.area / element.elongation) : 0.0);
+    values.set(field::wall_gap_along, s, element.gap[0]);
+    values.set(field::wall_gap_across, s, element.gap[1]);
   }
   fields = compute::Buffer<Real>(device, values.values());
   starts = compute::Buffer<int>(device, cells.begin);
@@ -155,7 +155,7 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     : kind(given), count(static_cast<int>(wholes.size() + pieces.size())), list(device, 1) {
   const int edges = d.dimensions == 3 ? 3 : 1;
   const bool whole = kind == WallKind::facets;
-  const int field_count = whole ? field::edges + edges * field::edge_count : static_cast<int>(field::triangle_count);
+  const int field_count = whole ? field::wall_edges + edges * field::edge_count : static_cast<int>(field::wall_triangle_count);
   stride = whole ? field_count : std::max(count, 1);
   const InnerEdges inner = whole && d.dimensions == 3 ? InnerEdges(wholes, pieces, d.smoothing_length) : InnerEdges();
   std::vector<Facet> facets = wholes;
@@ -172,18 +172,18 @@ WallArrays<Real>::WallArrays(const compute::Device& device, const std::vector<Fa
     const int source = whole ? s : cells.order[s];
     const Facet facet = turned_left(facets[source], d.dimensions);
     shapes.push_back(facet);
-    values.set_vector(field::normal_x, s, facet.normal);
+    values.set_vector(field::wall_normal_x, s, facet.normal);
     values.set(field::wall_owner, s, facet.owner);
     values.set(field::wall_thin, s, thin_value(thin, source));
     values.set_place(field::wall_x, s, whole ? facet.plane_point : centres[source]);
     const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
     if (whole) {
-      values.set(field::area, s, d.dimensions == 3 && is_small(facet, d.smoothing_length) ? 0.5 * a.cross(b).norm() : 0.0);
+      values.set(field::wall_area, s, d.dimensions == 3 && is_small(facet, d.smoothing_length) ? 0.5 * a.cross(b).norm() : 0.0);
       set_edges(facet, s, d.dimensions, inner, values);
       continue;
     }
-    values.set(field::area, s, d.dimensions == 3 ? 0.5 * a.cross(b).norm() : a.norm());
-    for (int k = 0; k < 3; ++k) values.set_vector(field::corners + 3 * k, s, facet.corners[k] - centres[source]);
+    values.set(field::wall_area, s, d.dimensions == 3 ? 0.5 * a.cross(b).norm() : a.norm());
+    for (int k = 0; k < 3; ++k) values.set_vector(field::wall_corners + 3 * k, s, facet.corners[k] - centres[source]);
   }
   fields = compute::Buffer<Real>(device, values.values());
   starts = compute::Buffer<int>(device, cells.begin);

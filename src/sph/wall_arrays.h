@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kernel_parameters.h"
+#include "tables/device_sizes.h"
 #include "wavetank/compute/buffer.h"
 #include "wavetank/geometry/thin_walls.h"
 #include "wavetank/sph/discretisation.h"
@@ -26,7 +26,7 @@ struct WallArrays {
   WallKind kind = WallKind::facets;
   int count = 0;
   int stride = 0;                ///< from a field to the next; of facets, from a facet to the next
-  compute::Buffer<Real> fields;  ///< as field::Wall has them for the kind
+  compute::Buffer<Real> fields;  ///< field::wall_… has them, for the kind
   compute::Buffer<int> starts;   ///< of each cell, one more than cells: in the fields, or in the list
   compute::Buffer<int> list;     ///< of facets by cell
   std::vector<Facet> shapes;     ///< at rest, in the fields' order; of rectangles the centre alone

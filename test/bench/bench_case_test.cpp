@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const std::vector<BenchCase>& cases) {
 TEST(BenchCases, HaveNamesOfTheirOwn) {
   const std::vector<std::string> names = names_of(all_cases());
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
-  EXPECT_EQ(names.size(), 2U * 5U * 3U * 3U * 7U + 1U);
+  EXPECT_EQ(names.size(), 2U * 5U * 3U * 3U * 7U + 1U + 2U * 2U * 3U * 6U * 3U);
   EXPECT_EQ(case_named("dam_break_3d/100k/h1.73/fourtakas/facet").smoothing, 1.73);
   EXPECT_NE(error_of([] { case_named("dam_break_4d"); }).find("dam_break_4d"), std::string::npos);
 }
@@ -38,6 +38,17 @@ TEST(BenchCases, AreChosenByPartsOfTheirNames) {
   EXPECT_EQ(names_of(chosen_cases({"/ghost", "2d/10k/h1.5/none"})), std::vector<std::string>{"dam_break_2d/10k/h1.5/none/ghost"});
   const std::string refused = error_of([] { chosen_cases({"3d", "7k"}); });
   EXPECT_NE(refused.find("'3d' and '7k'"), std::string::npos) << refused;
+}
+
+TEST(BenchCases, HaveEverySchemeLawAndIntegrator) {
+  EXPECT_EQ(chosen_cases({"methods_3d/100k"}).size(), 3U * 6U * 3U);
+  const Case scene = make_case(case_named("methods_2d/30k/riemann_ale/michel/runge_kutta_4"), "auto");
+  EXPECT_EQ(scene.numerics.scheme, Scheme::riemann_ale);
+  EXPECT_EQ(scene.numerics.shifting, Shifting::michel);
+  EXPECT_EQ(scene.numerics.integrator, Integrator::runge_kutta_4);
+  EXPECT_EQ(scene.numerics.density_diffusion, DensityDiffusion::none);
+  const Case usual = make_case(case_named("methods_3d/100k/delta_sph/none/symplectic"), "auto");
+  EXPECT_EQ(usual.numerics.density_diffusion, DensityDiffusion::fourtakas);
 }
 
 TEST(BenchCases, OfTheDefaultVaryOneThingAtATime) {

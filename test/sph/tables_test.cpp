@@ -1,10 +1,13 @@
 // What the kernels know as fields and numbers is said once, in rows.
 #include <cstring>
+#include <sstream>
 
+#include "../../src/sph/tables/device_sizes.h"
 #include "../../src/sph/tables/fields.h"
 #include "../../src/sph/tables/parameters.h"
 #include "../common/error_of.h"
 #include "sph_fixture.h"
+#include "wavetank/sph/kernel_sources.h"
 
 namespace wavetank {
 namespace {
@@ -41,6 +44,20 @@ TEST(FieldTable, RefusesNamesThatAreTakenOrUnknown) {
             }),
             "two fields of the particles' state are called \"x\"");
   EXPECT_EQ(error_of([] { FieldTable({{state, {"x"}, "", ""}}).at(rates, "x"); }), "no field of the particles' rates is called \"x\"");
+}
+
+/// A size that a kernel file also gave a value of its own would be two truths.
+TEST(DeviceSizes, AreOnlyInTheirRows) {
+  const std::string header = sizes_header();
+  EXPECT_NE(header.find("#define WALL_TANGENT_X 9  // along them\n"), std::string::npos);
+  EXPECT_NE(header.find("#define SHIFT_MOST R(0.2"), std::string::npos);
+  std::istringstream lines(header);
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    const std::string start = line.substr(0, line.find(' ', 8) + 1);
+    for (const auto& [file, text] : kernel_sources()) EXPECT_EQ(text.find(start), std::string::npos) << start << "in " << file;
+  }
+  EXPECT_GT(rows, 40);
 }
 
 TEST(Parameters, AreLaidOutAsTheDeviceDeclaresThem) {

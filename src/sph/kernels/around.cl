@@ -1,17 +1,8 @@
-// What is found about each particle's free surface and evenness, in an array of its own.
-#define AROUND_EIGENVALUE 0     // λ
-#define AROUND_NORMAL 1         // out of the water
-#define AROUND_SHEPARD 4        // γ
-#define AROUND_SURFACE 5        // 1: on the free surface
-#define AROUND_CONCENTRATION 6  // ∇C, walls included
-#define AROUND_WALLS 9          // Σ ∫ W dS: 0 where no wall is within the support
+// What is found about each particle's free surface and evenness, in an array of its own: AROUND_….
 
 // λ below which a particle is on the surface, and above which it is inside; between them the cone tells.
 #define EIGENVALUE_OF_SURFACE R(0.2)
 #define EIGENVALUE_INSIDE R(0.75)
-
-// No particle is shifted farther in a step than this part of the spacing.
-#define SHIFT_MOST R(0.2)
 
 // Of a particle whose shift is wanted.
 typedef struct {

@@ -26,43 +26,12 @@ typedef struct {
 // Places of the fields in the arrays of the state, of the rates of change and of sums of these; from the rows of src/sph/tables.
 #include "fields.cl"
 
-// walls: fields that every kind has ...
-#define WALL_X 0              // the element's centre, or a point of the facet's plane
-#define WALL_Y 1
-#define WALL_Z 2
-#define WALL_NORMAL_X 3       // out of the fluid
-#define WALL_NORMAL_Y 4
-#define WALL_NORMAL_Z 5
-#define WALL_OWNER 6
-#define WALL_THIN 7           // 1: has water on both sides, nearer than the support, and shows itself on its own side only
-#define WALL_AREA 8
-// ... and each kind its own from here on
+// Sizes, and places of values in other arrays.
+#include "sizes.cl"
 
-// Regions of the grid about an owner of walls, in which particles may touch it; gone through in runs of slots along x.
-#define REGION_RUN 32
-#define REGION_OWNER 0
-#define REGION_ITEM 1         // its first run among those of all regions
-#define REGION_SLOT_X 2
-#define REGION_ROW_Y 3
-#define REGION_ROW_Z 4
-#define REGION_END_X 5        // beyond its last slot
-#define REGION_RUNS 6         // in a row of it
-#define REGION_ROWS 7         // along y
-#define REGION_COUNT 8
-#define WRENCH_COUNT 12       // pressure force, viscous force, pressure torque, viscous torque
-
-// Motions of walls. First the tank's frame, in which the fluid is solved: gravity less the acceleration of the frame's origin, angular velocity, angular
-// acceleration, and the origin itself.
-#define FRAME_COUNT 12
-// Then, of each owner of walls: centre, velocity, angular velocity, acceleration, angular acceleration, and the velocity of a belt along the surface.
-#define MOTION_COUNT 18
 #define OWNER_MOTION(motions, owner) ((motions) + FRAME_COUNT + MOTION_COUNT * (owner))
 
-// Of how many owners of walls the guard tells apart what they take from one particle.
-#define GUARD_OWNERS 2
 #define NO_OWNER (-1)
-#define FACING_OWNERS 2       // other owners whose walls a piece of wall may face nearer than the support
-#define IMPULSE_COUNT 6       // impulse, and its moment about the owner's centre
 
 // to's position = from's position + displacement, with what rounding loses carried on (Kahan).
 INLINE void move_from(__global const real* from, __global real* to, long stride, int axis, int i, real displacement) {

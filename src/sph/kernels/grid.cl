@@ -3,7 +3,6 @@
 #include "cells.cl"
 
 // Whether a place is in a drain: DRAIN_COUNT values each, its centre and three vectors along which its faces are at −1 and 1.
-#define DRAIN_COUNT 12
 INLINE bool drained(real x, real y, real z, int drain_count, __global const real* drains) {
   for (int k = 0; k < drain_count; ++k) {
     __global const real* drain = drains + k * DRAIN_COUNT;
@@ -27,7 +26,6 @@ __kernel void count_slots(__constant const parameters_t* p, int count, __global 
 }
 
 // Exclusive prefix sum: sums of blocks, and of groups of blocks in the same way; the groups' running totals; the values of each group, and of each block.
-#define SCAN_BLOCK 256
 
 __kernel void scan_blocks(int count, __global const int* values, __global int* block_sums) {
   const int block = get_global_id(0);

@@ -9,7 +9,6 @@
 #define IMAGE_VELOCITY_OFFSET 21  // b
 #define IMAGE_NEAR 24             // seen only by particles with n·x + o < R for each of three planes: n, o
 #define IMAGE_MIRRORED 36         // 1: a reflection
-#define IMAGE_COUNT 37
 
 typedef struct {
   __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
@@ -242,8 +241,6 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
 }
 
 #if THIN_WALLS
-#define BARRIER_EDGES 4
-#define BARRIER_COUNT 21  // plane n, o, and the edges' planes m, o, all with normal · x + o; inside an edge that is not negative; the owner
 #define BARRIER_OWNER 20
 
 // Whether the barrier stands at the point (x, y, z) of its plane.
@@ -374,7 +371,6 @@ INLINE bool has_barriers(__constant const parameters_t* p, const walls_t* walls,
 // of any solid; hiding what lies behind the wall from a particle would leave its sums open, or closed by a guess, and pressures would jump whenever a
 // neighbour comes round the edge. Farther from the edge than the support a particle sees no more of what is behind than behind any wall, and what is there
 // and the wall's own far side cancel: between EDGE_NEAR and EDGE_FAR of the support both ways of summing are right, and the one goes over into the other.
-#define FREE_EDGE_COUNT 8
 #define FREE_EDGE_DIRECTION 3
 #define FREE_EDGE_LENGTH 6
 #define FREE_EDGE_OPEN 7  // 1; 0 where another wall stands at it

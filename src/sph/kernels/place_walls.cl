@@ -1,8 +1,6 @@
 // Walls of owners that move: from where the case's geometry has them to where they are now.
 #include "common.cl"
 
-#define POSE_COUNT 12  // rotation, row by row, and displacement: x' = Q x + d
-
 #define KIND_PLACE 1   // the first of three fields of a place
 #define KIND_VECTOR 2  // or of a vector, which is turned alone
 

@@ -3,7 +3,6 @@
 #include "common.cl"
 #include "equation_of_state.cl"
 
-#define REDUCE_CHUNK 256
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
 typedef struct {
   int broken;    // a place or a velocity is not finite
@@ -106,7 +105,6 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_COMPRESSION 2
 #define ENERGY_MASS 3
 #define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
-#define ENERGY_COUNT 7
 
 // Water whose tension is taken away stores none.
 INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }

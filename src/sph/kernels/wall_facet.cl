@@ -4,12 +4,6 @@
 // p² + t² = ρ² − d²: the quotients are polynomials of d and ρ without a pole, and eight Gauss points, taken as one vector, give them to 1e-6; the singular
 // part of Φ gives an angle. Over a small facet the regular parts are smooth: seven points all over it are cheaper than its edges. Lengths below are in units of h.
 #define WALL_SMALL_AREA WALL_AREA  // of a small facet; 0 if it is large
-#if DIMENSIONS == 3
-#define WALL_EDGES 9          // three times: base x, y, z, direction x, y, z, length, sign (twice as large: the next facet is large and of the same plane)
-#define EDGE_COUNT 8
-#else
-#define WALL_EDGES 9          // base x, y, z, direction x, y, z, length
-#endif
 
 // Distances below this are as good as zero: far below what a coordinate resolves, but enough to keep the angles defined.
 #define LEAST_HEIGHT R(1.0e-6)

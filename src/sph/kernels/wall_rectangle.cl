@@ -1,12 +1,5 @@
 // Numerical wall elements ([C] B.2): rectangles (2-D: segments) of about the spacing, whose integrals are midpoint rules, except for the singular part
 // of Φ, whose integral is the angle that the rectangle subtends.
-#define WALL_TANGENT_X 9
-#define WALL_TANGENT_Y 10
-#define WALL_TANGENT_Z 11
-#define WALL_HALF_ALONG 12
-#define WALL_HALF_ACROSS 13
-#define WALL_GAP_ALONG 14     // by which the wall that it stands for reaches beyond the rectangle: nothing unless that wall is no rectangle
-#define WALL_GAP_ACROSS 15
 
 #if DIMENSIONS == 3
 // Solid angle between the foot point and the corner (a, b) of a rectangle at distance d ≥ 0, signed by a and b ([C] of docs/numerics.md, B.2). As an

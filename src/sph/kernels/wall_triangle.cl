@@ -1,6 +1,5 @@
 // Semi-analytical wall elements ([C] B.1): triangles (2-D: segments) of about the spacing that know their corners. The singular part of Φ is
 // integrated exactly, as the angle that the triangle subtends; the rest is the midpoint rule with its second-order term.
-#define WALL_CORNERS 9  // three times x, y, z, from the centre
 
 // How far the foot lies beside the edge from a to b (seen from the point), positive outside. `normal` is on the side from which the corners turn right.
 INLINE real beside_edge(vector_t normal, vector_t a, vector_t b) {
