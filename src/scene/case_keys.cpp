@@ -184,6 +184,8 @@ Section<NumericsCase> numerics_section() {
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
               "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme.");
+  section.key("acoustic_damping", &NumericsCase::acoustic_damping, number(between(0, 10)), "",
+              "Coefficient α₂ of the acoustic damper, a bulk viscosity α₂ c₀ h on sound alone; with `symplectic`. 0: none.");
   section.key("equation_of_state", &NumericsCase::equation_of_state, method<EquationOfState>(), "",
               meanings<EquationOfState>("Pressure from density"));
   section.key("viscosity_model", &NumericsCase::viscosity_model, method<ViscosityModel>(), "",

@@ -153,6 +153,10 @@ void check_case(const Case& read, const Setting& root) {
   check_periodic(read, root);
   check_levels(read, root);
   check_joints(read, root);
+  if (read.numerics.acoustic_damping > 0 && read.numerics.integrator != Integrator::symplectic)
+    throw Error(nearest_setting(root, "numerics/acoustic_damping").place.describe() +
+                ": numerics/acoustic_damping is above 0 and numerics/integrator is " + word_of(read.numerics.integrator) +
+                ": the damper needs symplectic, which has the rates of the step before");
   NameCheck names(read, root);
   names.check(read.bodies, "bodies");
   for (std::size_t i = 0; i < read.bodies.size(); ++i)

@@ -30,6 +30,7 @@ BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
       {"USE_DOUBLE", choice.use_double},
       {"NO_SLIP", n.walls.slip == Slip::no_slip},
       {"CLAMP_PRESSURE", n.negative_pressure == NegativePressure::clamped},
+      {"ACOUSTIC_DAMPER", n.acoustic_damping > 0},
       {"FACETS", kind_of(n.walls) == WallKind::facets},
       {"TRIANGLES", kind_of(n.walls) == WallKind::triangles},
       {"GHOSTS", n.walls.method == WallMethod::ghost},

@@ -250,6 +250,7 @@ struct NumericsCase {
   DensityDiffusion density_diffusion = DensityDiffusion::fourtakas;
   double density_diffusion_coefficient = 0.1;  ///< δ
   double artificial_viscosity = 0.02;          ///< α
+  double acoustic_damping = 0;                 ///< α₂
   EquationOfState equation_of_state = EquationOfState::linear;
   ViscosityModel viscosity_model = ViscosityModel::monaghan_gingold;
   NegativePressure negative_pressure = NegativePressure::clamped;

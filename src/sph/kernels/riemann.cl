@@ -6,6 +6,9 @@ EQUATION_OF_STATE(tile, fluid)
 
 typedef struct {
   tile compression;
+#if ACOUSTIC_DAMPER
+  tile pressure;  // with the acoustic damper's
+#endif
   tile_vector_t slope;  // its gradient
 #if GRADIENT_OF_VELOCITY
   tile_vector_t slope_u, slope_v, slope_w;
@@ -17,9 +20,20 @@ typedef struct {
 #endif
 } scheme_own_t;
 
+#if ACOUSTIC_DAMPER
+// Of the pressure, what the equation of state does not explain: the acoustic damper's.
+INLINE tile damper_of(__constant const parameters_t* p, tile pressure, tile compression) {
+  const tile stated = fluid_pressure(p, compression);
+  return pressure - (CLAMP_PRESSURE ? fmax(stated, R(0.0)) : stated);
+}
+#endif
+
 INLINE scheme_own_t scheme_own(const neighbours_t* n, __global const real* gradient, int first) {
   scheme_own_t own;
   own.compression = own_values(n->state + FIELD_COMPRESSION * n->stride, first);
+#if ACOUSTIC_DAMPER
+  own.pressure = own_values(n->state + FIELD_PRESSURE * n->stride, first);
+#endif
   own.slope = own_gradient(n, gradient, GRADIENT_COMPRESSION, first);
 #if GRADIENT_OF_VELOCITY
   own.slope_u = own_gradient(n, gradient, GRADIENT_U, first);
@@ -92,6 +106,10 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
 #if CLAMP_PRESSURE
   p_left = fmax(p_left, R(0.0));
   p_right = fmax(p_right, R(0.0));
+#endif
+#if ACOUSTIC_DAMPER
+  p_left += damper_of(p, own->pressure, own->compression);
+  p_right += damper_of(p, neighbour_pressure(n, p, pair->j, pair->rx, pair->ry, pair->rz), near);
 #endif
   const tile z_left = fluid_impedance(p, s_left), z_right = fluid_impedance(p, s_right);
   // along e, velocities are those products over r; at r = 0 there is no pair

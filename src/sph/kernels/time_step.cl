@@ -5,10 +5,14 @@
 EQUATION_OF_STATE(real, particle)
 
 // What follows from the fields that evolve, and what the neighbour loop needs beside them. A particle keeps its mass, or else, where the scheme has a rate
-// of the volume, what its compression and volume make of it.
-INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real mass) {
+// of the volume, what its compression and volume make of it. `damper`: of the pressure, that of the acoustic damper, Pa.
+INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real mass, real damper) {
   const real compression = state[FIELD_COMPRESSION * stride + i];
+#if ACOUSTIC_DAMPER
+  const real pressure = particle_pressure(p, compression) + damper;
+#else
   const real pressure = particle_pressure(p, compression);
+#endif
   state[FIELD_PRESSURE * stride + i] = CLAMP_PRESSURE ? fmax(pressure, R(0.0)) : pressure;
 #ifdef RATE_VOLUME
   state[FIELD_MASS * stride + i] = p->density * (R(1.0) + compression) * state[FIELD_VOLUME * stride + i];
@@ -41,7 +45,7 @@ INLINE void leave_out(__global real* half_state, long stride, int i) {
 
 __kernel void derive_state(__constant const parameters_t* p, int count, __global real* state, long stride) {
   const int i = get_global_id(0);
-  if (i < count) derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
+  if (i < count) derive(p, state, stride, i, state[FIELD_MASS * stride + i], R(0.0));
 }
 
 // Symplectic (drift, kick, drift): positions and compressions go half a step with what they had, velocities a whole one with the forces of the middle,
@@ -62,7 +66,8 @@ __kernel void predict(__constant const parameters_t* p, int count, __global cons
   }
 #define DRIFT(NAME) half_state[FIELD_##NAME * stride + i] = state[FIELD_##NAME * stride + i] + half_step * rates[RATE_##NAME * stride + i];
   EACH_CONJUGATE(DRIFT)
-  derive(p, half_state, stride, i, state[FIELD_MASS * stride + i]);
+  // only of the middle, whose pressures move the water: by the rate that the last step's continuity left
+  derive(p, half_state, stride, i, state[FIELD_MASS * stride + i], p->bulk_viscosity * rates[RATE_COMPRESSION * stride + i]);
   if (is_lost(half_state, stride, i)) leave_out(half_state, stride, i);
 }
 
@@ -112,7 +117,7 @@ __kernel void correct(__constant const parameters_t* p, int count, __global real
   EACH_CONJUGATE(TELL)
 #define TAKE(NAME) state[FIELD_##NAME * stride + i] = half_state[FIELD_##NAME * stride + i];
   EACH_CONJUGATE(TAKE)
-  derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
+  derive(p, state, stride, i, state[FIELD_MASS * stride + i], R(0.0));
 }
 
 // The second drift of the compressions, and a step of what follows them.
@@ -124,7 +129,7 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
   EACH_CONJUGATE(DRIFT_ON)
 #define FOLLOW(NAME) state[FIELD_##NAME * stride + i] += time_step[0] * rates[RATE_##NAME * stride + i];
   EACH_FOLLOWER(FOLLOW)
-  derive(p, state, stride, i, state[FIELD_MASS * stride + i]);
+  derive(p, state, stride, i, state[FIELD_MASS * stride + i], R(0.0));
 }
 
 // Runge and Kutta's, and the predictor and corrector: a sum of weighted rates of several states.
@@ -133,7 +138,7 @@ __kernel void compress(__constant const parameters_t* p, int count, __global rea
 
 // Trial state: positions, velocities and what else evolves of a particle are set already.
 INLINE void finish_trial(__constant const parameters_t* p, __global const real* now, __global real* trial, long stride, int i) {
-  derive(p, trial, stride, i, now[FIELD_MASS * stride + i]);
+  derive(p, trial, stride, i, now[FIELD_MASS * stride + i], R(0.0));
   if (is_lost(trial, stride, i)) leave_out(trial, stride, i);  // the sums have what was lost
 }
 
@@ -181,7 +186,7 @@ INLINE void end_step(__constant const parameters_t* p, __global real* now, __glo
   rates[RATE_CLEARANCE * stride + i] -= sqrt(way);
   wrap(p, now, stride, i);
   if (not_finite(now[FIELD_COMPRESSION * stride + i])) now[FIELD_U * stride + i] = now[FIELD_COMPRESSION * stride + i];  // lost in all
-  derive(p, now, stride, i, now[FIELD_MASS * stride + i]);
+  derive(p, now, stride, i, now[FIELD_MASS * stride + i], R(0.0));
 }
 
 // now += Δt (sum + weight rates), of the trial state.
