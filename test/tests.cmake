@@ -50,7 +50,7 @@ foreach(library ${rooms})
   endforeach()
 endforeach()
 
-# Every kernel on a few hundred particles, each access watched by oclgrind.
+# Every kernel on some tens of particles, each access watched by oclgrind.
 add_executable(every_kernel EXCLUDE_FROM_ALL test/oclgrind/every_kernel.cpp)
 target_link_libraries(every_kernel wavetank_bench_library)
 if(WAVETANK_STANDALONE)

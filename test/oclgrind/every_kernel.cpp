@@ -1,4 +1,4 @@
-// Runs every kernel of the solver on a few hundred particles in 2-D and 3-D, to be watched by oclgrind. Prints what it ran.
+// Runs every kernel of the solver on some tens of particles in 2-D and 3-D, to be watched by oclgrind. Prints what it ran.
 #include "../../src/bench/check/every_kernel.h"
 
 #include <cstdio>

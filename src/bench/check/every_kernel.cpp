@@ -12,20 +12,22 @@
 namespace wavetank::bench {
 namespace {
 
-const Vector3d box_centre(0.35, 0.1, 0.05);
+const Vector3d box_centre(0.25, 0.1, 0.05);
 
 Case column(int dimensions, DensityDiffusion diffusion = DensityDiffusion::fourtakas) {
-  const double across = dimensions == 3 ? 0.2 : 0.0;
+  // of 75 and 63 particles: no whole number of tiles, of which the last reads beyond the end
+  const double across = dimensions == 3 ? 0.25 : 0.0;
   Case scene;
   scene.dimensions = dimensions;
   scene.fluid.spacing = dimensions == 3 ? 0.05 : 0.025;
-  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.25, across, 0.3)}};
-  scene.tank.shape = BoxTank{Vector3d(0.5, across, 0.4), Vector3d::Zero(), false};
+  scene.fluid.fill = {Box{Vector3d::Zero(), dimensions == 3 ? Vector3d(0.15, across, 0.25) : Vector3d(0.175, 0, 0.225)}};
+  scene.tank.shape = BoxTank{Vector3d(0.35, across, 0.3), Vector3d::Zero(), false};
   BodyCase box;
   box.name = "box";
-  box.shape = Box{Vector3d(0.3, 0.05, 0.0), Vector3d(0.4, 0.15, 0.1)};
+  box.shape = Box{Vector3d(0.2, 0.05, 0.0), Vector3d(0.3, 0.15, 0.1)};
   scene.bodies = {box};
   scene.numerics.density_diffusion = diffusion;
+  scene.numerics.support = dimensions == 3 ? 2.2 : 3.0;  // few neighbours, of which what watches has to see each
   return scene;
 }
 
@@ -100,11 +102,14 @@ void Runs::run(const compute::Device& device, const Case& checked, WallMover* mo
   std::vector<Vector3d> centres(1, Vector3d::Zero());
   centres.resize(1 + scene.bodies.size(), box_centre);
   const auto solver = make_solver(device, scene, layout, discretise(scene, layout), centres);
-  solver->set_film({{Vector3d(0.3, 0.1, 0.02), 1e-4, 1000.0}, {Vector3d(0.24, 0.1, 0.02), 1e-4, 1000.0}});
+  solver->set_film({{Vector3d(0.2, 0.1, 0.02), 1e-4, 1000.0}, {Vector3d(0.14, 0.1, 0.02), 1e-4, 1000.0}});
   solver->pack(2, {});
   solver->start();
   bool valid = true;
-  for (int step = 0; step < 2; ++step) valid = solver->advance(mover).valid() && valid;
+  // Several evaluations a step bring each integrator's kernels to states that have moved: a second step is for the one that has one, and
+  // for walls that move, whose lists are made anew.
+  const int steps = scene.numerics.integrator == Integrator::symplectic || mover != nullptr ? 2 : 1;
+  for (int step = 0; step < steps; ++step) valid = solver->advance(mover).valid() && valid;
   ++found_.cases;
   if (!valid) ++found_.violations;
   read(*solver);
@@ -116,7 +121,7 @@ void Runs::run(const compute::Device& device, const Case& checked, WallMover* mo
 
 /// All that a solver can be asked.
 void Runs::read(Solver& solver) {
-  const auto points = solver.make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.5, 0.2, 0.4), Vector3d(0.45, 0.1, 0.35)});
+  const auto points = solver.make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.35, 0.25, 0.3), Vector3d(0.3, 0.1, 0.25)});
   for (const PointValue& value : solver.evaluate(*points))
     found_.not_finite += not_finite_of({value.pressure, value.filling, value.shepard});
   for (const WallWrench& wrench : solver.wrenches())
@@ -157,10 +162,6 @@ void run_walls(Runs& runs, int dimensions) {
   Case scene = column(dimensions);
   scene.tank.periodic = {false, dimensions == 3, false};
   scene.bodies[0].surface_velocity = Vector3d(0.1, 0, 0);
-  if (dimensions == 3) {
-    std::get<BoxTank>(scene.tank.shape).size.y() = 0.4;  // twice the support
-    scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.15, 0.4, 0.2)}};
-  }
   for (const auto elements : {WallElements::numerical, WallElements::semi_analytical, WallElements::facet}) {
     scene.numerics.walls.elements = elements;
     runs.run(scene);
@@ -221,6 +222,7 @@ void run_methods(Runs& runs, int dimensions) {
     numerics.tensile = nth<Tensile>(k);
     numerics.equation_of_state = nth<EquationOfState>(k);
     numerics.viscosity_model = nth<ViscosityModel>(k);
+    if (dimensions == 3 && k > 0) scene.bodies.clear();  // what is seen past a thin box takes most of the time, and is the same for all
     runs.run(scene);
   }
 }

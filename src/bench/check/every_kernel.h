@@ -9,7 +9,7 @@
 
 namespace wavetank::bench {
 
-/// What small cases have come to in two steps each.
+/// What small cases have come to in a step or two each.
 struct EveryKernel {
   std::vector<std::string> run;      ///< names of the kernels that were launched
   std::vector<std::string> missing;  ///< and of those in the sources that were not
