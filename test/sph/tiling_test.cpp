@@ -111,8 +111,9 @@ void compare(const Case& scene, const std::vector<unsigned>& widths, double roun
   }
 }
 
-TEST(Tiling, DoesNotChangeTheSumsIn2D) { compare(column(2, Precision::single, false), {4, 16}, 2e-6); }
-TEST(Tiling, DoesNotChangeTheSumsIn3D) { compare(column(3, Precision::single, false), {8, 16}, 2e-6); }
+// Each width at least once: a driver's compiler takes ten seconds for the kernels of each.
+TEST(Tiling, DoesNotChangeTheSumsIn2D) { compare(column(2, Precision::single, false), {4}, 2e-6); }
+TEST(Tiling, DoesNotChangeTheSumsIn3D) { compare(column(3, Precision::single, false), {8}, 2e-6); }
 TEST(Tiling, DoesNotChangeTheSumsInAPeriodicTank) { compare(column(2, Precision::single, true), {16}, 2e-6); }
 TEST(Tiling, DoesNotChangeTheSumsInDoublePrecision) { compare(column(2, Precision::double_, false), {16}, 1e-13); }
 
@@ -123,8 +124,8 @@ Case column_about_plate(int dimensions) {
   return scene;
 }
 
-TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn2D) { compare(column_about_plate(2), {4, 16}, 2e-6); }
-TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn3D) { compare(column_about_plate(3), {8, 16}, 2e-6); }
+TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn2D) { compare(column_about_plate(2), {16}, 2e-6); }
+TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn3D) { compare(column_about_plate(3), {16}, 2e-6); }
 
 TEST(Tiling, DoesNotChangeTheSumsAsOnAGpu) {
   const Case scene = column(3, Precision::single, false);
