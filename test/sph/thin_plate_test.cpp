@@ -63,7 +63,7 @@ TEST(ThinPlate, PartsWaterOfTwoDepths) {
       Tank tank(scene);
       const FluidState before = tank.solver->download();
       const std::size_t on_left = members(before, 0, 0.4), on_right = before.id.size() - on_left;
-      rest(tank, dimensions == 2 ? 1.0 : 0.25, dimensions == 2 ? 200 : 100);
+      rest(tank, dimensions == 2 ? 0.5 : 0.25, dimensions == 2 ? 200 : 100);
       const FluidState fluid = tank.solver->download();
       const double error_left = pressure_error(fluid, 0, 0.4, left), error_right = pressure_error(fluid, 0.4, 0.8, right);
       double force = 0;
