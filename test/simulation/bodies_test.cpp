@@ -200,7 +200,7 @@ TEST(Bodies, AsHeavyAsWaterHover) {
   for (const PoseSample& sample : samples.poses)
     farthest = std::max(farthest, (sample.states[1].position - samples.poses.front().states[1].position).norm());
   std::printf("a cube as heavy as water is at most %.2f spacings from where it was in 0.6 s\n", farthest / (side / 7));
-  EXPECT_LT(farthest, 0.5 * side / 7);  // unbalanced by 1 %, it would be 0.9 spacings away
+  EXPECT_LT(farthest, 0.2 * side / 7);  // unbalanced by 1 %, it would be 0.6 spacings away, with the water that goes along
 }
 
 // ---- contact
