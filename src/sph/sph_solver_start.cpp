@@ -95,8 +95,12 @@ StepReport SphSolver<Real>::start_at_rest() {
 template <class Real>
 StepReport SphSolver<Real>::start_from_state() {
   kernels_.derive.launch(count_);
-  find_accelerations(Slot::now);
-  find_compression_rates(Slot::now);
+  if (case_.numerics.integrator == Integrator::symplectic) {
+    find_accelerations(Slot::now);
+    find_compression_rates(Slot::now);
+  } else {
+    find_rates(Slot::now);  // by the one kernel that the steps need as well
+  }
   guarded_.clear();
   return watch();
 }

@@ -57,6 +57,13 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(at, 1.0, 6)
         self.assertAlmostEqual(impulse, 1800.0, 6)
 
+    def test_noise_is_about_the_running_mean(self):
+        t = numpy.arange(0, 1.0005, 0.001)
+        waves = 1000 * t + 40 * numpy.sin(2 * math.pi * t / 0.0205)  # two whole periods of the waves in the mean, which leaves the slope alone
+        self.assertAlmostEqual(plot_probes.noise(series(t, waves), 0.2, 0.8), 40 / math.sqrt(2), delta=0.3)
+        self.assertAlmostEqual(plot_probes.noise(series(t, 1000 * t), 0.2, 0.8), 0.0, delta=1e-6)
+        self.assertTrue(math.isnan(plot_probes.noise(series(t, waves), 0.5, 1.5)))
+
     def test_no_impulse_where_the_record_does_not_reach(self):
         t = numpy.arange(0, 0.5, 0.001)
         self.assertTrue(math.isnan(plot_probes.impulse(series(t, t), 0.35, 1.0)))

@@ -1,6 +1,8 @@
 // digests: what twelve small cases are after 200 steps, to the bit, one line each. Two versions of the solver that print the same compute
 // the same (scripts/same_bits). 2-D and 3-D, three kinds of walls, two density diffusions; with a paddle that moves and a float that is
 // moved by the water.
+//   digests FILE: in double precision, and FILE gets each case's places, velocities and pressures at the end: what a change of rounding
+//   alone leaves the same to the last digit of single precision, in which they are told.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -57,7 +59,14 @@ void add_float(Case& scene, double width) {
   scene.bodies.push_back(body);
 }
 
-void print_digests(const std::string& name, const Case& scene) {
+void write_fields(std::FILE* file, const std::string& name, const ParticleCloud& cloud, const std::vector<std::size_t>& order) {
+  std::fprintf(file, "# %s\n", name.c_str());
+  for (const std::size_t i : order)
+    std::fprintf(file, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", cloud.position[i].x(), cloud.position[i].y(), cloud.position[i].z(),
+                 cloud.velocity[i].x(), cloud.velocity[i].y(), cloud.velocity[i].z(), cloud.pressure[i]);
+}
+
+void print_digests(const std::string& name, const Case& scene, std::FILE* fields) {
   Simulation simulation(scene);
   Digest wrenches;
   for (int step = 0; step < steps; ++step) {
@@ -72,6 +81,7 @@ void print_digests(const std::string& name, const Case& scene) {
   std::vector<std::size_t> order(cloud.id.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cloud.id[a] < cloud.id[b]; });
+  if (fields != nullptr) write_fields(fields, name, cloud, order);
   const double time = simulation.state().time;
   Digest clock;
   clock.add(&time, sizeof time);
@@ -84,7 +94,7 @@ void print_digests(const std::string& name, const Case& scene) {
   std::fflush(stdout);
 }
 
-void run() {
+void run(std::FILE* fields) {
   const struct {
     const char* name;
     WallElements elements;
@@ -95,6 +105,7 @@ void run() {
         Case scene = dam_break(dimensions);
         scene.numerics.walls.elements = elements;
         scene.numerics.density_diffusion = diffusion;
+        if (fields != nullptr) scene.numerics.precision = Precision::double_;
         std::string name =
             std::to_string(dimensions) + "-D, " + wall + (diffusion == DensityDiffusion::fourtakas ? ", fourtakas" : ", antuono");
         if (dimensions == 2 && elements == WallElements::facet && diffusion == DensityDiffusion::fourtakas) {
@@ -105,16 +116,22 @@ void run() {
           add_float(scene, 0.24);
           name += ", a float";
         }
-        print_digests(name, scene);
+        print_digests(name, scene, fields);
       }
 }
 
 }  // namespace
 }  // namespace wavetank
 
-int main() {
+int main(int count, char** arguments) {
+  std::FILE* const fields = count > 1 ? std::fopen(arguments[1], "w") : nullptr;
+  if (count > 1 && fields == nullptr) {
+    std::fprintf(stderr, "digests: '%s' cannot be written\n", arguments[1]);
+    return 1;
+  }
   try {
-    wavetank::run();
+    wavetank::run(fields);
+    if (fields != nullptr) std::fclose(fields);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "digests: %s\n", error.what());
     return 1;
