@@ -218,6 +218,7 @@ void Simulation::reset() {
   parts.report.time_step = parts.initial_time_step;
   parts.left_tank.assign(parts.left_tank.size(), false);
   parts.told_of_loss = false;
+  parts.told_of_speed = false;
   parts.recorder.take();
   parts.recorder.start(*parts.solver);
 }

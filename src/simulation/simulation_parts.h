@@ -37,6 +37,8 @@ struct Simulation::Parts {
   void check(const StepReport& report);
   /// Throws Violation where particles lie upon each other instead of filling their volume.
   void check_volume();
+  /// Says once that the water is fast beside its sound.
+  void tell_of_speed(double greatest);
   /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
   double loading_seconds();
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
@@ -69,6 +71,7 @@ struct Simulation::Parts {
   std::vector<double> reaches;  ///< of each owner, of its bounding box from its reference point at the start, m
   std::vector<bool> left_tank;  ///< of each owner: it has, and that was said
   bool told_of_loss = false;    ///< of the water's volume
+  bool told_of_speed = false;   ///< of water that is fast beside its sound
 };
 
 /// Where torques are taken about.

@@ -21,7 +21,17 @@ void Simulation::Parts::check(const StepReport& r) {
   if (!(r.time_step >= discretisation.least_time_step))
     throw Violation("the time step collapsed to " + number(r.time_step) + " s (greatest speed " + number(r.greatest_speed) +
                     " m/s, greatest acceleration " + number(r.greatest_acceleration) + " m/s²)," + when());
+  tell_of_speed(r.greatest_speed);
   check_bodies();
+}
+
+void Simulation::Parts::tell_of_speed(double greatest) {
+  constexpr double most = 0.15;  // Mach number: densities then change by about its square
+  const double mach = greatest / discretisation.sound_speed;
+  if (!(mach > most) || std::exchange(told_of_speed, true)) return;
+  log(LogLevel::warning, "the fastest particle moves at " + number(greatest) + " m/s, Mach " + number(mach, "%.3f") + " at t = " +
+                             number(time) + " s, where water is no longer as good as incompressible: choose a fluid/sound_speed above " +
+                             number(discretisation.sound_speed) + " m/s if that is more than spray.");
 }
 
 void Simulation::Parts::check_volume() {

@@ -4,6 +4,7 @@
 #include "../../src/simulation/snapshot.h"
 #include "../sph/state_bytes.h"
 #include "simulation_fixture.h"
+#include "wavetank/common/log.h"
 
 namespace wavetank {
 namespace {
@@ -51,6 +52,21 @@ class Watchdog : public SimulationTest {
 TEST_F(Watchdog, ReportsAValueThatIsNotFinite) {
   const std::string message = violation_of(12, "w", std::numeric_limits<float>::quiet_NaN());
   expect_parts(message, {"not finite", "particle ", "t = " + shown(time) + " s", "step 8"});
+}
+
+TEST_F(Watchdog, TellsOnceOfWaterThatIsFastBesideItsSound) {
+  for (const bool fast : {false, true}) {
+    if (fast) scene.fluid.sound_speed = 6;
+    std::vector<std::string> warnings;
+    set_log_sink([&](LogLevel level, const std::string& line) {
+      if (level == LogLevel::warning && line.find("Mach") != std::string::npos) warnings.push_back(line);
+    });
+    Simulation simulation(scene);
+    while (simulation.state().time < 0.25) simulation.advance();
+    set_log_sink({});
+    ASSERT_EQ(warnings.size(), fast ? 1U : 0U);
+    if (fast) expect_parts(warnings[0], {"the fastest particle moves at ", "Mach 0.15", "fluid/sound_speed above 6 m/s"});
+  }
 }
 
 TEST_F(Watchdog, ReportsAParticleOutside) {
