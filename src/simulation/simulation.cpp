@@ -296,7 +296,8 @@ std::string Simulation::summary() const {
   line("wall elements", std::to_string(walls_in_use(parts.scene, parts.layout)));
   line("sound speed", number(d.sound_speed) + " m/s, expected Mach number " +
                           number(std::max(expected_speed(parts.scene, parts.layout), parts.fastest) / d.sound_speed, "%.3f"));
-  line("bounds on the time step", "acoustic " + number(d.acoustic_time) + " s at rest, viscous " + number(d.viscous_time) + " s");
+  line("bounds on the time step",
+       "acoustic " + number(d.acoustic_time) + " s at rest, of viscosity and the acoustic damper " + number(d.viscous_time) + " s");
   line("packing", std::to_string(parts.packing.iterations) + " iterations, h|E| from " + number(parts.packing.first_error, "%.3g") +
                       " to " + number(parts.packing.last_error, "%.3g"));
   line("settling", number(parts.scene.numerics.packing.settling) + " periods of the slowest sound");

@@ -73,11 +73,10 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
   // exchange with other particles, and with a wall as near as half a spacing, whose drag is the stiffer the smaller the spacing is beside h
   const double rate = 8.0 * (physical + artificial) + 8.0 * physical * d.smoothing_length / d.spacing;
   d.acoustic_time = numerics.courant * d.smoothing_length / d.sound_speed;
-  // the acoustic damper grows sound from about 1.6 h/(α₂ c₀) on, and from 0.9 on beside the diffusion of Riemann problems, which is as
+  // the acoustic damper makes sound grow from about 1.6 h/(α₂ c₀) on, and from 0.9 on beside the diffusion of Riemann problems, which is as
   // large
-  const double damped =
-      (numerics.scheme == Scheme::delta_sph ? 1.4 : 0.8) * d.smoothing_length / std::max(numerics.acoustic_damping * d.sound_speed, 1e-30);
-  d.viscous_time = std::min(d.smoothing_length * d.smoothing_length / std::max(rate, 1e-30), damped);
+  const double bulk = numerics.acoustic_damping * d.smoothing_length * d.sound_speed / (numerics.scheme == Scheme::delta_sph ? 1.4 : 0.8);
+  d.viscous_time = d.smoothing_length * d.smoothing_length / std::max(rate + bulk, 1e-30);
   d.least_time_step = 1e-3 * std::min(d.acoustic_time, d.viscous_time);
   return d;
 }

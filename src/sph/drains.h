@@ -21,14 +21,15 @@ class Drains {
       add(drain.centre - origin);
       for (int k = 0; k < 3; ++k) add(drain.half_edges.col(k) / drain.half_edges.col(k).squaredNorm());
     }
-    count_ = static_cast<int>(drains.size());
+    given_ = count_ = static_cast<int>(drains.size());
     values_.set(device, values);
   }
-  int count() const { return count_; }
+  /// None is there while they are closed.
+  void close(bool closed) { count_ = closed ? 0 : given_; }
   void add_to(compute::Arguments& arguments) const { arguments.value("drain_count", count_).memory("drains", values_.on_device()); }
 
  private:
-  int count_ = 0;
+  int given_ = 0, count_ = 0;
   KeptBuffer<Real> values_;  ///< field::drain_count values each: centre, and for each pair of faces what gives −1 and 1 on them
 };
 

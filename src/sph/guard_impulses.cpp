@@ -1,6 +1,7 @@
 #include "guard_impulses.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace wavetank {
 
@@ -17,10 +18,16 @@ GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, St
 
 template <class Real>
 void GuardImpulses<Real>::reserve(Stride stride) {
-  hits = compute::Buffer<int>(device_, stride);
-  takers = compute::Buffer<int>(device_, gives_ ? field::guard_owners * static_cast<std::size_t>(stride) : 1);
-  lost = compute::Buffer<Real>(device_, gives_ ? 3 * field::guard_owners * static_cast<std::size_t>(stride) : 1);
-  parts_ = compute::Buffer<Real>(device_, values_.size() * chunks_of(static_cast<int>(stride)));
+  const auto of_owners = gives_ ? field::guard_owners * static_cast<std::size_t>(stride) : 0;
+  std::vector<int> had = hits.size() > 0 ? hits.download() : std::vector<int>();  // of this step, which its report has still to count
+  had.resize(stride, 0);
+  compute::Buffer<int> larger(device_, had), owners(device_, std::max<std::size_t>(of_owners, 1));
+  compute::Buffer<Real> velocities(device_, std::max<std::size_t>(3 * of_owners, 1)),
+      parts(device_, values_.size() * chunks_of(static_cast<int>(stride)));
+  hits = std::move(larger);
+  takers = std::move(owners);
+  lost = std::move(velocities);
+  parts_ = std::move(parts);
 }
 
 template <class Real>

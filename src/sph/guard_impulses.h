@@ -23,7 +23,7 @@ class GuardImpulses {
   bool gives() const { return gives_; }
   /// Queues the sums of what the guard has just taken, for the step's report; of so many chunks of particles.
   void gather(int chunks);
-  /// Room for particles so far apart, without hits.
+  /// Room for particles so far apart; hits stay.
   void reserve(Stride stride);
   /// Of so many particles from the first of them on.
   void clear_hits(int first, int count);

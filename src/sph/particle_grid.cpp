@@ -56,7 +56,7 @@ void ParticleGrid::sort(int particles) {
   start_blocks_.launch(groups_);
   start_slots_.launch(blocks_);
   scatter_.launch(particles_);
-  settle_.launch(slots_);
+  settle_.launch(all_slots_);
   reorder_.launch(particles_);
 }
 

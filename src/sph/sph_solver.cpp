@@ -104,7 +104,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
-  SphSolver::set_drains({});
+  drains_.set(device, {}, discretisation_.origin);
   if (owners_move) moving_walls_.emplace(device, walls_, moving_, centres_, layout, discretisation_);
   bind_kernels();
   set_wall_motions(at_start);

@@ -78,7 +78,9 @@ class SphSolver final : public Solver, private StepEngine {
   void reserve(int count);
   /// Those that wait to come in take the next places.
   void add_waiting();
-  bool may_come_or_go() const { return next_id_ != given_ || drains_.count() > 0; }
+  void check_nobody_came() const;
+  /// All stay in the water, wherever drains are.
+  void sort_all();
   std::vector<int> order_by_id(const std::vector<std::uint32_t>& id) const;
   void upload_rates(const std::vector<Real>& by_id);
   compute::Arguments arguments() const;
@@ -157,6 +159,7 @@ class SphSolver final : public Solver, private StepEngine {
   std::int64_t next_id_ = 0;
   NewParticles waiting_;  ///< to come in
   Drains<Real> drains_;
+  bool open_ = false;  ///< particles may come or go
   Stride stride_ = 0;  ///< at least that many particles have room
   int chunks_ = 0;
   int groups_ = 0;  ///< chunks of chunks

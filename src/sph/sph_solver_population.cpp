@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "equation_of_state.h"
 #include "sph_solver.h"
@@ -20,6 +21,16 @@ void check(const NewParticles& particles) {
     if (!particles.position[k].allFinite() || !particles.velocity[k].allFinite() || !std::isfinite(particles.pressure[k]) ||
         !(particles.volume[k] > 0) || !std::isfinite(particles.volume[k]))
       throw Error("particle " + std::to_string(k) + " of those that are to come in has a value that is not finite, or no volume");
+}
+
+void check(const Drain& drain) {
+  const Eigen::Vector3d sizes = drain.half_edges.colwise().norm();
+  const Eigen::Matrix3d products = drain.half_edges.transpose() * drain.half_edges;
+  const double least = sizes.minCoeff(), most = sizes.maxCoeff();
+  if (!drain.centre.allFinite() || !drain.half_edges.allFinite() || !(least > 0))
+    throw Error("a drain has a value that is not finite, or no size");
+  if (!((products - Eigen::Matrix3d(products.diagonal().asDiagonal())).cwiseAbs().maxCoeff() < 1e-6 * most * most))
+    throw Error("a drain's edges are not at right angles");
 }
 
 /// Each component of an array of as many particles, so far apart as is wanted.
@@ -46,6 +57,7 @@ void SphSolver<Real>::set_count(int count) {
 template <class Real>
 void SphSolver<Real>::let_in(const NewParticles& particles) {
   check(particles);
+  open_ = true;
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add(waiting_.position, particles.position);
   add(waiting_.velocity, particles.velocity);
@@ -55,27 +67,51 @@ void SphSolver<Real>::let_in(const NewParticles& particles) {
 
 template <class Real>
 void SphSolver<Real>::set_drains(const std::vector<Drain>& drains) {
+  for (const Drain& drain : drains) check(drain);
+  open_ = true;
   drains_.set(device_, drains, discretisation_.origin);
 }
 
 template <class Real>
+void SphSolver<Real>::check_nobody_came() const {
+  if (next_id_ != given_ || !waiting_.position.empty())
+    throw Error("a case was to be started, settled or packed when particles had come in already");
+}
+
+template <class Real>
+void SphSolver<Real>::sort_all() {
+  drains_.close(true);
+  sort();
+  drains_.close(false);
+}
+
+/// All memory is there before anything is changed, so that the particles can still be saved where there is none left.
+template <class Real>
 void SphSolver<Real>::reserve(int count) {
-  const Stride wanted = stride_for(count);
-  if (wanted <= stride_) return;
+  if (stride_for(count) <= stride_) return;
   const Stride stride = stride_for(count + count / 4);
-  for (Buffer* array : {&state_, &rates_, &gradient_, &half_, &sum_}) *array = respaced(device_, *array, stride_, stride);
-  for (compute::Buffer<std::uint32_t>* ids : {&id_, &spare_id_}) *ids = respaced(device_, *ids, static_cast<Stride>(ids->size()), stride);
-  around_ = Buffer();
-  fillings_ = Buffer(device_, stride);
-  guarded_.reserve(stride);
-  surroundings_.grid.reserve(device_, static_cast<int>(stride));
   const auto chunks = static_cast<std::size_t>(chunks_of(static_cast<int>(stride)));
   const auto groups = static_cast<std::size_t>(chunks_of(static_cast<int>(chunks)));
-  watches_ = Buffer(device_, chunks * reports_.greatest_count());
-  group_watches_ = Buffer(device_, groups * reports_.greatest_count());
-  alarms_ = compute::Buffer<int>(device_, chunks * reports_.integer_count());
-  group_alarms_ = compute::Buffer<int>(device_, groups * reports_.integer_count());
-  energy_parts_ = Buffer(device_, chunks * field::energy_count);
+  Buffer* const arrays[] = {&state_, &rates_, &gradient_, &half_, &sum_};
+  std::vector<Buffer> larger;
+  for (const Buffer* array : arrays) larger.push_back(respaced(device_, *array, stride_, stride));
+  compute::Buffer<std::uint32_t> ids = respaced(device_, id_, static_cast<Stride>(id_.size()), stride), spare_ids(device_, stride);
+  Buffer fillings(device_, stride), watches(device_, chunks * reports_.greatest_count()),
+      group_watches(device_, groups * reports_.greatest_count()), energy_parts(device_, chunks * field::energy_count);
+  compute::Buffer<int> alarms(device_, chunks * reports_.integer_count()), group_alarms(device_, groups * reports_.integer_count());
+  guarded_.reserve(stride);
+  surroundings_.grid.reserve(device_, static_cast<int>(stride));
+
+  for (std::size_t k = 0; k < larger.size(); ++k) *arrays[k] = std::move(larger[k]);
+  id_ = std::move(ids);
+  spare_id_ = std::move(spare_ids);
+  around_ = Buffer();
+  fillings_ = std::move(fillings);
+  watches_ = std::move(watches);
+  group_watches_ = std::move(group_watches);
+  alarms_ = std::move(alarms);
+  group_alarms_ = std::move(group_alarms);
+  energy_parts_ = std::move(energy_parts);
   stride_ = surroundings_.stride = stride;
 }
 
@@ -93,12 +129,13 @@ void SphSolver<Real>::add_waiting() {
   std::vector<std::uint32_t> id(count);
   for (int k = 0; k < count; ++k) {
     id[k] = static_cast<std::uint32_t>(next_id_ + k);
-    const Eigen::Vector3d place = waiting_.position[k] - discretisation_.origin;
+    Eigen::Vector3d place = waiting_.position[k] - discretisation_.origin, velocity = waiting_.velocity[k];
+    if (case_.dimensions == 2) place.y() = velocity.y() = 0;
     for (int axis = 0; axis < 3; ++axis) {
       put(static_cast<int>(first_.place) + axis, k, place[axis]);
       if ((long_axes_ >> axis & 1) != 0)
         put(static_cast<int>(first_.rest) + axis, k, static_cast<double>(static_cast<Real>(place[axis])) - place[axis]);
-      put(static_cast<int>(first_.velocity) + axis, k, waiting_.velocity[k][axis]);
+      put(static_cast<int>(first_.velocity) + axis, k, velocity[axis]);
     }
     const double compression = compression_at(waiting_.pressure[k] / stiffness, case_);
     put(at("compression"), k, compression);
@@ -125,6 +162,8 @@ void SphSolver<Real>::add_waiting() {
   template void SphSolver<Real>::reserve(int);                          \
   template void SphSolver<Real>::let_in(const NewParticles&);           \
   template void SphSolver<Real>::set_drains(const std::vector<Drain>&); \
+  template void SphSolver<Real>::check_nobody_came() const;             \
+  template void SphSolver<Real>::sort_all();                            \
   template void SphSolver<Real>::add_waiting();
 WAVETANK_POPULATION(float)
 WAVETANK_POPULATION(double)

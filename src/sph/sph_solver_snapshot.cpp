@@ -63,10 +63,10 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const SnapshotBlocks blocks(bytes);
   std::vector<std::string> names{id_block, next_id_block, step_block, lists_block, guard_block};
   const std::vector<std::uint32_t> id =
-      may_come_or_go() ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
+      open_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
   const double next_id = blocks.get<double>(next_id_block, 1)[0];
   const bool ascending = std::adjacent_find(id.begin(), id.end(), std::greater_equal<>()) == id.end();
-  if (!ascending || (!id.empty() && next_id <= id.back()) || (!may_come_or_go() && next_id != given_))
+  if (!ascending || (!id.empty() && next_id <= id.back()) || (!open_ && next_id != given_))
     throw Error("the snapshot's particles are not those of this case: their ids are others.");
   std::vector<std::pair<const FieldRow*, std::vector<std::vector<Real>>>> fields;
   for (const FieldRow& row : fields_.rows()) {
@@ -99,9 +99,12 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
       std::copy(components[k].begin(), components[k].end(),
                 (row->array == ParticleArray::state ? state : rates).begin() +
                     static_cast<std::ptrdiff_t>(index_of(row->components[k].c_str(), 0, row->array)));
+  // what lies beyond the particles may be left from a run that has gone wrong
+  half_.fill_zero();
+  gradient_.fill_zero();
   state_.upload(state);
   id_.upload(id);
-  sort();
+  sort_all();
   upload_rates(rates);
 }
 

@@ -22,7 +22,7 @@ double finite_at(const Expression& expression, const Eigen::Vector3d& place, con
 
 template <class Real>
 StepReport SphSolver<Real>::start() {
-  if (may_come_or_go() && next_id_ != given_) throw Error("the start of a case was asked for when particles had come in already");
+  check_nobody_came();
   set_hydrostatic();
   start_at_rest();
   return start_as_given();
@@ -120,6 +120,7 @@ template <class Real>
 StepReport SphSolver<Real>::settle(double periods, const std::function<void(double)>& progress) {
   const double duration = periods * discretisation_.sound_period;
   if (duration == 0) return start();
+  check_nobody_came();
   set_hydrostatic();
   StepReport report = start_at_rest();
   WallArrays<Real> supported = make_supported_walls();
@@ -167,6 +168,7 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
 
 template <class Real>
 PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(double)>& progress) {
+  check_nobody_came();
   PackingReport report;
   const auto with_lid = [&](bool real_walls) { return case_walls_.arrays_at_start<Real>(device_, real_walls, case_walls_.lid()); };
   WallArrays<Real> closed = with_lid(!ghosts_);  // the ghosts themselves are the walls
@@ -196,7 +198,7 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     if (k == iterations) break;
     kernels_.move_packed.launch(count_);
     launch_among(ghosts_ ? of_guard : closed, kernels_.guard);
-    sort();
+    sort_all();
   }
   packing_parts_ = Buffer();
   return report;

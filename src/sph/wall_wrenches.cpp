@@ -59,7 +59,7 @@ void WallWrenches<Real>::set_poses(const std::vector<WallPose>& poses) {
   region_owners_.clear();
 }
 
-/// The slots in which particles may touch each owner's walls where they are now, as common.cl has regions.
+/// The slots in which particles may touch each owner's walls where they are now, as tables/device_sizes.h has regions.
 template <class Real>
 void WallWrenches<Real>::find_regions(const std::vector<int>& owners) {
   std::vector<int> values;

@@ -215,6 +215,36 @@ TEST(PopulationOfATank, GoesOnToTheSameBitsFromASnapshot) {
   EXPECT_EQ(other.solver->save(), tank.solver->save());
 }
 
+TEST(PopulationOfATank, IsNotRidOfParticlesWithoutAPlace) {
+  Water tank({ends[0]});
+  StateBytes<float> state(*tank.solver);
+  state.set("u", 7, std::numeric_limits<float>::quiet_NaN());
+  tank.solver->restore(state.bytes());
+  tank.solver->set_drains({Drain{Vector3d(1.8, 0, 0.1), Vector3d(0.1, 1, 0.1).asDiagonal()}});
+  EXPECT_FALSE(tank.solver->advance().valid()) << "a drain has taken what the watchdog must see";
+}
+
+TEST(PopulationOfATank, RefusesDrainsThatAreNone) {
+  Water tank({ends[0]});
+  Drain drain{Vector3d(1, 0, 0.3), Vector3d(0.5, 1, 0).asDiagonal()};
+  EXPECT_THROW(tank.solver->set_drains({drain}), Error) << "it has no height";
+  drain.half_edges = Vector3d(0.5, 1, 0.4).asDiagonal();
+  drain.half_edges(2, 0) = 0.2;
+  EXPECT_THROW(tank.solver->set_drains({drain}), Error) << "its edges are not at right angles";
+}
+
+/// More than a limbo may hold in no order: the same bits again.
+TEST(PopulationOfATank, RepeatsToTheBit) {
+  const auto run = [] {
+    Water tank({ends[0], ends[1]});
+    tank.solver->set_drains({half_of_the_tank()});
+    tank.solver->let_in(row(50, 0.5));
+    tank.step(4);
+    return tank.solver->save();
+  };
+  EXPECT_EQ(run(), run());
+}
+
 TEST(PopulationOfATank, RefusesParticlesThatAreNone) {
   Water tank({ends[0]});
   NewParticles particles = row(2, 0.5);

@@ -193,7 +193,8 @@ class Solver {
   /// grows with them. (By the symplectic integrator their compressions still change by half that step, as all others do then.) Throws Error
   /// if the lists are not of one length, or if a value is not finite or a volume not greater than 0.
   virtual void let_in(const NewParticles& particles) = 0;
-  /// Particles that are in one of these at a step's end are no more in the water then; {}: none.
+  /// Particles that are in one of these at a step's end are no more in the water then; {}: none. After a call of this or of let_in
+  /// snapshots of any number of particles are taken. Throws Error for a drain without size, or with edges that are not at right angles.
   virtual void set_drains(const std::vector<Drain>& drains) = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
@@ -209,7 +210,7 @@ class Solver {
   virtual FluidSurface find_surface() = 0;
   /// Of the present positions.
   virtual PairCount count_pairs() = 0;
-  /// The exact state, as bytes of this solver's precision: what a restart needs.
+  /// The exact state, as bytes of this solver's precision: what a restart needs. Without particles that wait to come in.
   virtual std::vector<char> save() const = 0;
   /// Throws Error if the bytes are not those of a state of this case; of as many particles, where none may come or go.
   virtual void restore(const std::vector<char>& bytes) = 0;

@@ -7,9 +7,9 @@ INLINE bool drained(real x, real y, real z, int drain_count, __global const real
   for (int k = 0; k < drain_count; ++k) {
     __global const real* drain = drains + k * DRAIN_COUNT;
     const real dx = x - drain[0], dy = y - drain[1], dz = z - drain[2];
-    real farthest = R(0.0);
-    for (int side = 3; side < DRAIN_COUNT; side += 3) farthest = fmax(farthest, fabs(dx * drain[side] + dy * drain[side + 1] + dz * drain[side + 2]));
-    if (farthest <= R(1.0)) return true;
+    bool inside = true;  // of which a place that is not finite never is: the watchdog has to see it
+    for (int side = 3; side < DRAIN_COUNT; side += 3) inside = inside && fabs(dx * drain[side] + dy * drain[side + 1] + dz * drain[side + 2]) <= R(1.0);
+    if (inside) return true;
   }
   return false;
 }
@@ -66,20 +66,25 @@ __kernel void scatter(int count, __global const int* slot_of, __global const int
 // particles alone, and is the same after a snapshot.
 INLINE bool goes_before(__global const real* xs, __global const uint* id, int a, int b) { return xs[a] < xs[b] || (xs[a] == xs[b] && id[a] < id[b]); }
 
-// The scatter's order within a slot depends on the device's scheduling.
+// The scatter's order within a slot depends on the device's scheduling. By insertion; of many, as there may be of those that leave, first far ones with each
+// other (Shell's sort, with Ciura's gaps).
 __kernel void settle_slots(int slots, __global const int* starts, __global const real* state, long stride, __global const uint* id, __global int* order) {
   const int slot = get_global_id(0);
-  if (slot >= slots) return;
+  if (slot > slots) return;
   __global const real* xs = state + FIELD_X * stride;
   const int begin = starts[slot], end = starts[slot + 1];
-  for (int i = begin + 1; i < end; ++i) {
-    const int moving = order[i];
-    int place = i;
-    while (place > begin && goes_before(xs, id, moving, order[place - 1])) {
-      order[place] = order[place - 1];
-      --place;
+  const int gaps[8] = {1, 4, 10, 23, 57, 132, 301, 701};
+  for (int k = end - begin > 32 ? 7 : 0; k >= 0; --k) {
+    const int gap = gaps[k];
+    for (int i = begin + gap; i < end; ++i) {
+      const int moving = order[i];
+      int place = i;
+      while (place - gap >= begin && goes_before(xs, id, moving, order[place - gap])) {
+        order[place] = order[place - gap];
+        place -= gap;
+      }
+      order[place] = moving;
     }
-    order[place] = moving;
   }
 }
 

@@ -5,6 +5,7 @@
 
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
 typedef struct {
+  int here;      // in the water: 0 of one that has left in this step, whose last state and rates these are
   int broken;    // a place or a velocity is not finite
   int infected;  // the compression or γ alone is not
   int sound;     // neither
@@ -15,7 +16,7 @@ typedef struct {
 
 #include "report.cl"
 
-INLINE watched_t watched(__constant const parameters_t* p, __global const real* state, __global const real* rates, long stride, int guarded, int i) {
+INLINE watched_t watched(__constant const parameters_t* p, __global const real* state, __global const real* rates, long stride, int here, int guarded, int i) {
   const real x = state[FIELD_X * stride + i], y = state[FIELD_Y * stride + i], z = state[FIELD_Z * stride + i];
   const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
   const real a = rates[RATE_U * stride + i], b = rates[RATE_V * stride + i], c = rates[RATE_W * stride + i];
@@ -27,9 +28,10 @@ INLINE watched_t watched(__constant const parameters_t* p, __global const real* 
   found.infected = !found.broken && (not_finite(state[FIELD_COMPRESSION * stride + i]) || not_finite(found.shepard)) ? 1 : 0;
   found.sound = !found.broken && !found.infected ? 1 : 0;
   const bool beyond = x < p->lower_x || x > p->upper_x || y < p->lower_y || y > p->upper_y || z < p->lower_z || z > p->upper_z;
-  found.outside = found.sound && beyond ? 1 : 0;
+  found.outside = here && found.sound && beyond ? 1 : 0;
   found.fast = found.sound && found.speed2 > p->greatest_speed * p->greatest_speed ? 1 : 0;
   found.guarded = guarded;
+  found.here = here;
   return found;
 }
 
@@ -37,13 +39,13 @@ __kernel void watch_chunks(__constant const parameters_t* p, int count, __global
                            __global const int* slot_start, int slots, __global const int* guard_hits, __global real* watches, __global int* alarms) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
-  const int end = min(min(count, slot_start[slots]), (chunk + 1) * REDUCE_CHUNK);  // without those that have left
   real greatest[GREATEST_COUNT];
   int counted[COUNTED_COUNT];
   for (int k = 0; k < GREATEST_COUNT; ++k) greatest[k] = R(0.0);
   for (int k = 0; k < COUNTED_COUNT; ++k) counted[k] = is_first(k) ? NOBODY : 0;
-  for (int i = chunk * REDUCE_CHUNK; i < end; ++i) {
-    const watched_t found = watched(p, state, rates, stride, guard_hits[i], i);
+  // with those that have just left: rates and hits may still be in the order of before the sort
+  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+    const watched_t found = watched(p, state, rates, stride, i < slot_start[slots] ? 1 : 0, guard_hits[i], i);
     watch_particle(&found, p, state, rates, stride, i, greatest, counted);
   }
   for (int k = 0; k < GREATEST_COUNT; ++k) watches[chunk * GREATEST_COUNT + k] = greatest[k];
@@ -149,7 +151,7 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
 // Packing's report: Σ (h |E|)².
 __kernel void packing_chunks(int count, __global const real* rates, long stride, __global real* sums) {
   const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= count) return;
+  if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   real sum = R(0.0), rest = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     const real error = rates[RATE_COMPRESSION * stride + i];
@@ -162,7 +164,7 @@ __kernel void packing_chunks(int count, __global const real* rates, long stride,
 __kernel void guard_chunks(int count, __global const real* state, long stride, __global const int* guard_hits, __global const int* takers,
                            __global const real* lost, int owners, __global const real* motions, __global real* impulses) {
   const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= count) return;
+  if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   __global real* sums = impulses + (long)chunk * owners * IMPULSE_COUNT;
   for (int k = 0; k < owners * IMPULSE_COUNT; ++k) sums[k] = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {

@@ -103,13 +103,13 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
   star.left = R(0.5) * minmod(own_stretch(own, pair), pair->approach);
   star.right = pair->approach - R(0.5) * minmod(neighbour_stretch(n, gradient, pair), pair->approach);
   tile p_left = fluid_pressure(p, s_left), p_right = fluid_pressure(p, s_right);
+#if ACOUSTIC_DAMPER
+  p_left += damper_of(p, own->pressure, own->compression);
+  p_right += damper_of(p, near_field(n, FIELD_PRESSURE, pair->j), near_field(n, FIELD_COMPRESSION, pair->j));
+#endif
 #if CLAMP_PRESSURE
   p_left = fmax(p_left, R(0.0));
   p_right = fmax(p_right, R(0.0));
-#endif
-#if ACOUSTIC_DAMPER
-  p_left += damper_of(p, own->pressure, own->compression);
-  p_right += damper_of(p, neighbour_pressure(n, p, pair->j, pair->rx, pair->ry, pair->rz), near);
 #endif
   const tile z_left = fluid_impedance(p, s_left), z_right = fluid_impedance(p, s_right);
   // along e, velocities are those products over r; at r = 0 there is no pair

@@ -71,7 +71,7 @@ std::string ReportTable::header() const {
 
 const std::vector<ReportRow>& common_reports() {
   static const std::vector<ReportRow> rows{
-      {"particles", Kind::count, "", "in the water", "1"},
+      {"particles", Kind::count, "", "in the water", "w->here"},
       {"speed", Kind::greatest, "m/s", "greatest |u|", "w->sound ? w->speed2 : R(0.0)", "sqrt(greatest)"},
       // from before the sorting, so of another particle: one that is not finite shows in its own particle's velocity
       {"acceleration", Kind::greatest, "m/s²", "greatest |du/dt|", "not_finite(w->acceleration2) ? R(0.0) : w->acceleration2",
