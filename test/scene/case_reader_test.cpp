@@ -224,7 +224,7 @@ TEST(CaseReader, DamBreakHasTheExperimentsProbes) {
     expect_close(probes[i + 4].position, {0.8245 - heights[i], 0.4745, 0.161});
   }
   EXPECT_NEAR(*read.fluid.spacing, 0.55 / 30, 1e-8);
-  EXPECT_EQ(read.fluid.sound_speed, 40.0);
+  EXPECT_EQ(read.fluid.sound_speed, 25.0);
   EXPECT_EQ(read.fluid.density, 998.0);
 }
 

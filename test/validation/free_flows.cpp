@@ -165,7 +165,7 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   solver->restore(state.bytes());
   double step = 0.75 * d.smoothing_length / (sound_speed);
   if (flow.reynolds > 0) step = std::min(step, 0.025 * d.support * d.support * flow.reynolds);
-  step *= number(words, "step", 1);
+  step = std::min(step * number(words, "step", 1), 0.999 * d.viscous_time);
   solver->limit_time_step(step);
   solver->shorten_step(step);
 
@@ -216,6 +216,8 @@ void run(const Flow& flow, const Words& words, Precision precision) {
     if (k == steps) break;
     const StepReport report = solver->advance();
     if (!report.valid()) throw Error("the run is lost at t = " + std::to_string(k * step));
+    if (k + 1 < steps && std::abs(report.time_step - step) > 1e-5 * step)
+      throw Error("steps of " + std::to_string(step) + " s were wanted, but the next one is of " + std::to_string(report.time_step) + " s");
     const auto found = report.more.find("shift");
     shift = found == report.more.end() ? 0 : found->second;
     shift_sum += shift;

@@ -211,7 +211,7 @@ INLINE void find_beyond(neighbours_t* near, __constant const parameters_t* p, ne
   tile beyond = (tile)(R(0.0));
   int gone = 0;
   const int* run = list;
-  for (; run < list + runs / 2; run += 2) gone += (run[1] - run[0] - gone + TILE_NEAR - 1) / TILE_NEAR * TILE_NEAR;
+  for (; run < list + runs / 2 && run + 2 < list + runs; run += 2) gone += (run[1] - run[0] - gone + TILE_NEAR - 1) / TILE_NEAR * TILE_NEAR;
   for (int block = 0; block < blocks; ++block) {
     const block_t b = block_of(near, run, gone, x, y, z);
     if (add_only_beyond(near, p, barriers, &beyond, b.j, x, y, z, b.rx, b.ry, b.rz, b.r2)) {
