@@ -147,7 +147,7 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
   Real* const volume = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
-    set_place(state, i, layout.particles[i]);
+    set_place(state, stride_, i, layout.particles[i]);
     mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
     volume[i] = static_cast<Real>(layout.volumes[i]);
   }
@@ -161,12 +161,12 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
 }
 
 template <class Real>
-void SphSolver<Real>::set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const {
+void SphSolver<Real>::set_place(std::vector<Real>& state, Stride stride, int i, const Eigen::Vector3d& place) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double wanted = place[axis] - discretisation_.origin[axis];
     const Real stored = static_cast<Real>(wanted);
-    state[(first_.place + axis) * stride_ + i] = stored;
-    if ((long_axes_ >> axis & 1) != 0) state[(first_.rest + axis) * stride_ + i] = static_cast<Real>(stored - wanted);
+    state[(first_.place + axis) * stride + i] = stored;
+    if ((long_axes_ >> axis & 1) != 0) state[(first_.rest + axis) * stride + i] = static_cast<Real>(stored - wanted);
   }
 }
 

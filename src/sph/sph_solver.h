@@ -68,8 +68,8 @@ class SphSolver final : public Solver, private StepEngine {
   /// Of a downloaded array, a component.
   const Real* component(const std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
   Real* component(std::vector<Real>& values, const char* name) const { return &values[index_of(name, 0)]; }
-  /// Of particle i of a downloaded state, m and m/s.
-  void set_place(std::vector<Real>& state, int i, const Eigen::Vector3d& place) const;
+  /// Of particle i of a state on the host, m and m/s; its components may be another stride apart than on the device.
+  void set_place(std::vector<Real>& state, Stride stride, int i, const Eigen::Vector3d& place) const;
   Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
   Eigen::Vector3d velocity_of(const std::vector<Real>& state, int i) const;
   void upload_particles(const Layout& layout);

@@ -129,14 +129,10 @@ void SphSolver<Real>::add_waiting() {
   std::vector<std::uint32_t> id(count);
   for (int k = 0; k < count; ++k) {
     id[k] = static_cast<std::uint32_t>(next_id_ + k);
-    Eigen::Vector3d place = waiting_.position[k] - discretisation_.origin, velocity = waiting_.velocity[k];
+    Eigen::Vector3d place = waiting_.position[k], velocity = waiting_.velocity[k];
     if (case_.dimensions == 2) place.y() = velocity.y() = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      put(static_cast<int>(first_.place) + axis, k, place[axis]);
-      if ((long_axes_ >> axis & 1) != 0)
-        put(static_cast<int>(first_.rest) + axis, k, static_cast<double>(static_cast<Real>(place[axis])) - place[axis]);
-      put(static_cast<int>(first_.velocity) + axis, k, velocity[axis]);
-    }
+    set_place(state, count, k, place);
+    for (int axis = 0; axis < 3; ++axis) put(static_cast<int>(first_.velocity) + axis, k, velocity[axis]);
     const double compression = compression_at(waiting_.pressure[k] / stiffness, case_);
     put(at("compression"), k, compression);
     put(at("pressure"), k, waiting_.pressure[k]);

@@ -2,35 +2,22 @@
 #include <cmath>
 #include <complex>
 
-#include "sph_fixture.h"
+#include "periodic_square.h"
 
 namespace wavetank {
 namespace {
 
-constexpr double side = 1.0, spacing = 0.025, sound_speed = 10, wave_number = 2 * M_PI / side;
+constexpr double side = PeriodicSquare::side, sound_speed = PeriodicSquare::sound_speed, wave_number = 2 * M_PI / side;
 
-/// A periodic square without gravity, viscosity and diffusion.
-struct PeriodicSquare {
-  PeriodicSquare(Scheme scheme, double damping) {
-    scene = box_case(Vector3d(side, 0, side), side, spacing);
-    scene.gravity = Vector3d::Zero();
-    scene.tank.periodic = {true, false, true};
-    scene.fluid.sound_speed = sound_speed;
-    scene.numerics.scheme = scheme;
-    scene.numerics.acoustic_damping = damping;
-    scene.numerics.density_diffusion = DensityDiffusion::none;
-    scene.numerics.negative_pressure = NegativePressure::allowed;
-    scene.numerics.artificial_viscosity = 0;
-    std::vector<Vector3d> particles;
-    for (double x = 0.5 * spacing; x < side; x += spacing)
-      for (double z = 0.5 * spacing; z < side; z += spacing) particles.emplace_back(x, 0, z);
-    layout = loose_particles({Vector3d::Zero(), Vector3d(side, 0, side)}, spacing, particles, 2);
-    layout.open_top = false;
-    scene = settled(scene, layout);
-    discretisation = discretise(scene, layout);
-    solver = make_solver(test_device(), scene, layout, discretisation, {Vector3d::Zero()});
-    solver->start();
-  }
+NumericsCase damped(Scheme scheme, double damping) {
+  NumericsCase numerics;
+  numerics.scheme = scheme;
+  numerics.acoustic_damping = damping;
+  return numerics;
+}
+
+struct DampedSquare : PeriodicSquare {
+  DampedSquare(Scheme scheme, double damping) : PeriodicSquare(0.025, damped(scheme, damping)) {}
   /// u and w by place, at no pressure.
   template <class Velocity>
   void set(const Velocity& velocity) {
@@ -52,16 +39,11 @@ struct PeriodicSquare {
     const FluidEnergies energies = solver->energies();
     return energies.kinetic + energies.compression;
   }
-
-  Layout layout;
-  Case scene;
-  Discretisation discretisation;
-  std::unique_ptr<Solver> solver;
 };
 
 /// How fast the energy of a standing sound wave decays, 1/s, over a whole period of it.
 double decay(Scheme scheme, double damping) {
-  PeriodicSquare square(scheme, damping);
+  DampedSquare square(scheme, damping);
   square.set([](double x, double) { return std::array<double, 2>{0.1 * std::sin(wave_number * x), 0.0}; });
   const double period = side / sound_speed, before = square.energy_after(1e-6);
   return std::log(before / square.energy_after(period)) / period;
@@ -85,7 +67,7 @@ TEST(AcousticDamper, TakesSoundAwayAsABulkViscosityDoes) {
   for (const MethodWord<Scheme>& known : method_words<Scheme>()) {
     const double without = decay(known.choice, 0);
     for (const double damping : {0.5, 2.0, 6.0}) {  // with the last steps are shorter
-      const double smoothing = PeriodicSquare(known.choice, damping).discretisation.smoothing_length;
+      const double smoothing = DampedSquare(known.choice, damping).discretisation.smoothing_length;
       const double expected = decay_in_theory(damping, smoothing);
       const double found = decay(known.choice, damping) - without;
       std::printf("%-18s alpha_2 = %.1f: the energy of sound decays by %.2f/s, %.2f/s without; by theory %.2f/s\n", known.word, damping,
@@ -118,7 +100,7 @@ TEST(AcousticDamper, LeavesWaterThatFallsFinite) {
 /// In vortices there is no sound to take away.
 TEST(AcousticDamper, LeavesVorticesAlone) {
   const auto energy = [](double damping) {
-    PeriodicSquare square(Scheme::delta_sph, damping);
+    DampedSquare square(Scheme::delta_sph, damping);
     square.set([](double x, double z) {
       return std::array<double, 2>{std::sin(wave_number * x) * std::cos(wave_number * z),
                                    -std::cos(wave_number * x) * std::sin(wave_number * z)};

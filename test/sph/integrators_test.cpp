@@ -1,7 +1,7 @@
 // Every integrator: its order on a smooth problem, bodies, and a restart to the same bits.
 #include <cmath>
 
-#include "sph_fixture.h"
+#include "periodic_square.h"
 
 namespace wavetank {
 namespace {
@@ -21,30 +21,17 @@ std::vector<Expected> all_integrators() {
 
 const std::vector<Expected> every_integrator = all_integrators();
 
-/// A square of 20 by 20 particles, periodic both ways, without gravity, viscosity and diffusion.
-struct PeriodicSquare {
-  static constexpr double side = 1.0, spacing = 0.05, sound_speed = 10;
+NumericsCase of_integrator(Integrator integrator) {
+  NumericsCase numerics;
+  numerics.integrator = integrator;
+  numerics.precision = Precision::double_;
+  numerics.courant = 1.0;
+  return numerics;
+}
 
-  explicit PeriodicSquare(Integrator integrator) {
-    scene = box_case(Vector3d(side, 0, side), side, spacing);
-    scene.gravity = Vector3d::Zero();
-    scene.tank.periodic = {true, false, true};
-    scene.fluid.sound_speed = sound_speed;
-    scene.numerics.integrator = integrator;
-    scene.numerics.precision = Precision::double_;
-    scene.numerics.density_diffusion = DensityDiffusion::none;
-    scene.numerics.negative_pressure = NegativePressure::allowed;
-    scene.numerics.artificial_viscosity = 0;
-    scene.numerics.courant = 1.0;
-    std::vector<Vector3d> particles;
-    for (double x = 0.5 * spacing; x < side; x += spacing)
-      for (double z = 0.5 * spacing; z < side; z += spacing) particles.emplace_back(x, 0, z);
-    layout = loose_particles({Vector3d::Zero(), Vector3d(side, 0, side)}, spacing, particles, 2);
-    layout.open_top = false;
-    scene = settled(scene, layout);
-    discretisation = discretise(scene, layout);
-    solver = make_solver(test_device(), scene, layout, discretisation, {Vector3d::Zero()});
-    solver->start();
+/// Of 20 by 20 particles, with a standing wave in it.
+struct StandingWave : PeriodicSquare {
+  explicit StandingWave(Integrator integrator) : PeriodicSquare(0.05, of_integrator(integrator)) {
     // a standing wave along x, at rest: s = S cos(2π x/L)
     StateBytes<double> state(*solver);
     for (std::size_t i = 0; i < state.count; ++i) {
@@ -71,11 +58,6 @@ struct PeriodicSquare {
     for (std::size_t i = 0; i < fluid.id.size(); ++i) speeds[fluid.id[i]] = fluid.velocity[i].x();
     return speeds;
   }
-
-  Layout layout;
-  Case scene;
-  Discretisation discretisation;
-  std::unique_ptr<Solver> solver;
 };
 
 double rms_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -86,10 +68,10 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 
 TEST(Integrators, HaveTheirOrder) {
   if (!has_precision(Precision::double_)) GTEST_SKIP() << "needs double precision";
-  const std::vector<double> exact = PeriodicSquare(Integrator::runge_kutta_4).after(512);
+  const std::vector<double> exact = StandingWave(Integrator::runge_kutta_4).after(512);
   for (const auto& [word, integrator, order] : every_integrator) {
-    const double coarse = rms_difference(PeriodicSquare(integrator).after(32), exact);
-    const double fine = rms_difference(PeriodicSquare(integrator).after(64), exact);
+    const double coarse = rms_difference(StandingWave(integrator).after(32), exact);
+    const double fine = rms_difference(StandingWave(integrator).after(64), exact);
     const double found = std::log2(coarse / fine);
     std::printf("%-20s error %.3e with 32 steps, %.3e with 64: order %.2f\n", word.c_str(), coarse, fine, found);
     EXPECT_NEAR(found, order, 0.2) << word;
