@@ -1,5 +1,7 @@
 #include "instrument_checks.h"
 
+#include <cmath>
+
 #include "polygon.h"
 #include "wavetank/common/error.h"
 
@@ -34,7 +36,44 @@ void check_probe(const PressureProbeCase& probe, const Basin& basin, const OpenS
   }
 }
 
+/// Evenly spread on the disc's rim (2-D: its ends).
+std::vector<Vector3d> rim_of(const PressureProbeCase& probe, const Vector3d& normal, int dimensions) {
+  const double radius = 0.5 * probe.diameter;
+  std::vector<Vector3d> rim;
+  if (dimensions == 2) {
+    const Vector3d along = normal.cross(Vector3d::UnitY());
+    return {probe.position - radius * along, probe.position + radius * along};
+  }
+  const Vector3d a = normal.unitOrthogonal(), b = normal.cross(a);
+  constexpr int count = 12;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::acos(-1.0) * k / count;
+    rim.push_back(probe.position + radius * (std::cos(angle) * a + std::sin(angle) * b));
+  }
+  return rim;
+}
+
+Vector3d disc_normal(const PressureProbeCase& probe, const Basin& basin, double spacing) {
+  const std::string name = "pressure probe '" + probe.name + "' at " + describe(probe.position) + " m has a disc ";
+  const auto wall = basin.grid->nearest(probe.position, 0.25 * spacing);
+  if (!wall) throw Error(name + "and lies on no wall; leave out its diameter, or put it on a wall");
+  const Vector3d normal = basin.grid->normal(wall->triangle);
+  for (const Vector3d& place : rim_of(probe, normal, basin.dimensions))
+    if (!basin.grid->nearest(place, 0.05 * probe.diameter))
+      throw Error(name + "that reaches beyond its wall at " + describe(place) + " m; make its diameter less, or move it");
+  return normal;
+}
+
 }  // namespace
+
+std::vector<Vector3d> disc_normals(const InstrumentsCase& instruments, const Basin& basin, double spacing) {
+  std::vector<Vector3d> normals;
+  for (PressureProbeCase probe : instruments.pressure_probes) {
+    if (basin.dimensions == 2) probe.position.y() = 0;
+    normals.push_back(probe.diameter > 0 ? disc_normal(probe, basin, spacing) : Vector3d(Vector3d::Zero()));
+  }
+  return normals;
+}
 
 void check_instruments(const InstrumentsCase& instruments, const Basin& basin, const OpenSpace& open, double spacing) {
   for (const PressureProbeCase& probe : instruments.pressure_probes) check_probe(probe, basin, open, spacing);

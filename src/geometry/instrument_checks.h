@@ -8,4 +8,8 @@ namespace wavetank {
 /// a wave gauge outside the tank. A probe on a wall is fine.
 void check_instruments(const InstrumentsCase& instruments, const Basin& basin, const OpenSpace& open, double spacing);
 
+/// Unit normals of the walls that the discs of the case's pressure probes lie on, zero for a probe without one. Throws Error naming a probe
+/// whose disc lies on no wall, or reaches beyond the flat part of it.
+std::vector<Vector3d> disc_normals(const InstrumentsCase& instruments, const Basin& basin, double spacing);
+
 }  // namespace wavetank

@@ -405,6 +405,7 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   layout.up = hydrostatic_direction(checked, basin, layout);
   find_levels(checked, regions, layout);
   check_instruments(checked.instruments, basin, open, layout.spacing);
+  layout.disc_normals = disc_normals(checked.instruments, basin, layout.spacing);
   return layout;
 }
 

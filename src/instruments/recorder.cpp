@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace wavetank {
@@ -45,26 +46,50 @@ PoseSample pose_sample(double time, const std::vector<double>& values, std::size
   return sample;
 }
 
+/// Points of a sensor's disc whose plain mean is that over the disc, exact for pressures up to the third degree: two rings of six, whose
+/// squared radii are Gauss's points. In 2-D Chebyshev's three of a strip.
+std::vector<Vector3d> points_of_disc(const PressureProbeCase& probe, const Vector3d& normal, int dimensions) {
+  const double radius = 0.5 * probe.diameter;
+  if (dimensions == 2) {
+    const Vector3d along = std::sqrt(0.5) * radius * normal.cross(Vector3d::UnitY());
+    return {probe.position - along, probe.position, probe.position + along};
+  }
+  const Vector3d a = normal.unitOrthogonal(), b = normal.cross(a);
+  std::vector<Vector3d> points;
+  for (int ring = 0; ring < 2; ++ring) {
+    const double distance = radius * std::sqrt(0.5 + (ring == 0 ? -0.5 : 0.5) / std::sqrt(3.0));
+    for (int k = 0; k < 6; ++k) {
+      const double angle = std::acos(-1.0) / 3 * (k + 0.5 * ring);
+      points.push_back(probe.position + distance * (std::cos(angle) * a + std::sin(angle) * b));
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world,
                    std::function<std::vector<WallWrench>(Solver&)> wrenches)
     : world_(world), gravity_(scene.gravity), wrenches_(std::move(wrenches)) {
-  add_pressures(scene, solver);
+  add_pressures(scene, layout, solver);
   add_levels(scene, layout, solver);
   add_wrenches(scene);
   add_energies(scene);
   add_poses(scene);
 }
 
-void Recorder::add_pressures(const Case& scene, const Solver& solver) {
+void Recorder::add_pressures(const Case& scene, const Layout& layout, const Solver& solver) {
   bool any_rides = false;
-  for (const PressureProbeCase& probe : scene.instruments.pressure_probes) {
-    probe_places_.push_back(probe.position);
+  for (std::size_t k = 0; k < scene.instruments.pressure_probes.size(); ++k) {
+    const PressureProbeCase& probe = scene.instruments.pressure_probes[k];
+    const std::vector<Vector3d> points =
+        probe.diameter > 0 ? points_of_disc(probe, layout.disc_normals.at(k), scene.dimensions) : std::vector<Vector3d>{probe.position};
     std::size_t owner = 0;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       if (scene.bodies[b].name == probe.body && world_.moves(1 + b)) owner = 1 + b;
-    probe_owners_.push_back(owner);
+    probe_points_.push_back(points.size());
+    probe_places_.insert(probe_places_.end(), points.begin(), points.end());
+    probe_owners_.insert(probe_owners_.end(), points.size(), owner);
     any_rides = any_rides || owner != 0;
   }
   probes_ = solver.make_points(probe_places_);
@@ -74,7 +99,13 @@ void Recorder::add_pressures(const Case& scene, const Solver& solver) {
                             Values pressures;
                             if (!any) return pressures;
                             if (any_rides) probes_->set(places_of_probes());
-                            for (const PointValue& value : fluid.evaluate(*probes_)) pressures.push_back(value.pressure);
+                            const std::vector<PointValue> values = fluid.evaluate(*probes_);
+                            auto next = values.begin();
+                            for (const std::size_t points : probe_points_) {
+                              double sum = 0;
+                              for (std::size_t k = 0; k < points; ++k) sum += (next++)->pressure;
+                              pressures.push_back(sum / static_cast<double>(points));
+                            }
                             return pressures;
                           },
                           [this](double time, const Values& values) {

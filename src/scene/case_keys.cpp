@@ -99,6 +99,37 @@ Section<TankCase> tank_section() {
   return section;
 }
 
+/// Of a body the law may be the case's.
+template <class Friction>
+Section<Friction> friction_section() {
+  constexpr bool of_body = std::is_same_v<Friction, SkinFrictionCase>;
+  std::vector<std::pair<std::string, FrictionLaw>> laws{{"none", FrictionLaw::none},
+                                                        {"viscous", FrictionLaw::viscous},
+                                                        {"law_of_the_wall", FrictionLaw::law_of_the_wall},
+                                                        {"coefficient", FrictionLaw::coefficient}};
+  if (of_body) laws.insert(laws.begin(), {"as_case", FrictionLaw::as_case});
+  Section<Friction> section;
+  section.key(
+      "law", &FrictionCase::law, choice<FrictionLaw>(laws), "",
+      std::string("What holds the water back along the wall: nothing; `viscous`, μ u/d at each particle's distance d, of a boundary "
+                  "layer that the particles resolve; `law_of_the_wall`, the logarithmic law at that distance, of a turbulent one "
+                  "that they do not; `coefficient`, ½ C_f ρ u²") +
+          (of_body ? "; `as_case`, as `numerics/walls/friction` says." : "."));
+  section.key_where([](const FrictionCase& friction) { return friction.law == FrictionLaw::coefficient; }, "coefficient",
+                    &FrictionCase::coefficient, number(between(0, 1)), "", "C_f of `coefficient`.");
+  section.key_where([](const FrictionCase& friction) { return friction.law == FrictionLaw::law_of_the_wall; }, "roughness",
+                    &FrictionCase::roughness, number(at_least(0)), "m",
+                    "Height k_s of Nikuradse's sand grains, of `law_of_the_wall`; 0: smooth.");
+  section.rule([](const FrictionCase& friction, const Setting& map, const std::string& path, const Context&) {
+    if (friction.law != FrictionLaw::coefficient && map.find("coefficient") != nullptr)
+      refuse_key(map, path, "coefficient",
+                 "is of the law coefficient only; leave it out, or set " + join_path(path, "law") + " to coefficient");
+    if (friction.law != FrictionLaw::law_of_the_wall && map.find("roughness") != nullptr)
+      refuse_key(map, path, "roughness", "is of the law law_of_the_wall only; leave it out, or set " + join_path(path, "law") + " to that");
+  });
+  return section;
+}
+
 Section<BodyCase> body_section() {
   Section<BodyCase> section;
   section
@@ -110,6 +141,8 @@ Section<BodyCase> body_section() {
               "runs.");
   section.key("surface_velocity", &BodyCase::surface_velocity, vector(), "m/s",
               "Of a belt: its surface runs at this velocity while the body stands; only the part along the surface acts.");
+  section.key("skin_friction", &BodyCase::skin_friction, section_of(friction_section<SkinFrictionCase>()), "",
+              "Of the water along the body.");
   section.key_of<Box>(&BodyCase::shape, "box", Whole{}, section_of(box_section()), "", "A box.").required = true;
   add_mesh_keys(section, &BodyCase::shape);
   add_rigid_keys(section);
@@ -141,6 +174,8 @@ Section<WallCase> wall_section() {
       "exactly.");
   section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
               "The fluid's velocity along a wall.");
+  section.key("friction", &WallCase::friction, section_of(friction_section<FrictionCase>()), "",
+              "Of the water along walls with `no_slip`, where no body says otherwise; by boundary integrals.");
   section.key("renormalise_divergence", &WallCase::renormalise_divergence, flag(), "",
               "With fourtakas or no diffusion: whether the velocity's divergence is divided by the Shepard factor's root, and diffusion by "
               "the factor.");
@@ -186,6 +221,9 @@ Section<NumericsCase> numerics_section() {
               "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme.");
   section.key("acoustic_damping", &NumericsCase::acoustic_damping, number(between(0, 10)), "",
               "Coefficient α₂ of the acoustic damper, a bulk viscosity α₂ c₀ h on sound alone; with `symplectic`. 0: none.");
+  section.key("turbulence", &NumericsCase::turbulence, method<Turbulence>(), "", meanings<Turbulence>("Model of eddies below the spacing"));
+  section.key_where([](const NumericsCase& numerics) { return numerics.turbulence == Turbulence::smagorinsky; }, "smagorinsky_coefficient",
+                    &NumericsCase::smagorinsky_coefficient, number(between(0, 1)), "", "C_s.");
   section.key("equation_of_state", &NumericsCase::equation_of_state, method<EquationOfState>(), "",
               meanings<EquationOfState>("Pressure from density"));
   section.key("viscosity_model", &NumericsCase::viscosity_model, method<ViscosityModel>(), "",
@@ -212,6 +250,8 @@ Section<InstrumentsCase> instruments_section() {
   probe.key("position", &PressureProbeCase::position, position(), "m", "At the start, on a wall or in the fluid; in 2-D also [x, z].")
       .required = true;
   probe.key("body", &PressureProbeCase::body, text(), "", "The body that the probe is fixed to; empty: the tank.");
+  probe.key("diameter", &PressureProbeCase::diameter, number(at_least(0)), "m",
+            "Of the sensor's disc on the wall, over which it takes the mean; in 2-D the length of its strip. 0: a point.");
   Section<WaveGaugeCase> gauge;
   gauge.key("name", &WaveGaugeCase::name, name(), "", "The gauge's name.").required = true;
   gauge

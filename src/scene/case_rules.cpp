@@ -59,6 +59,36 @@ void check_walls(const Case& read, const Setting& root) {
     clash(root, "numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
 }
 
+const char* word_of(FrictionLaw law) {
+  switch (law) {
+    case FrictionLaw::none:
+      return "none";
+    case FrictionLaw::law_of_the_wall:
+      return "law_of_the_wall";
+    case FrictionLaw::coefficient:
+      return "coefficient";
+    default:
+      return "viscous";
+  }
+}
+
+/// Of walls whose friction is said at `path`.
+void check_friction(const Case& read, const Setting& root, const FrictionCase& friction, const std::string& path) {
+  if (friction.law == FrictionLaw::as_case || friction.law == FrictionLaw::viscous) return;
+  const WallCase& walls = read.numerics.walls;
+  const std::string law = join_path(path, "law");
+  if (walls.method == WallMethod::ghost)
+    clash(root, law,
+          std::string(word_of(friction.law)) +
+              ", which boundary integrals have and ghosts have not; leave it out, or set "
+              "numerics/walls/method to boundary_integral");
+  if (walls.slip == Slip::free_slip && friction.law != FrictionLaw::none)
+    clash(root, law,
+          std::string(word_of(friction.law)) + ", of walls without slip, and numerics/walls/slip is free_slip; leave out one of them");
+  if (friction.law == FrictionLaw::law_of_the_wall && friction.roughness == 0.0 && read.fluid.viscosity == 0.0)
+    clash(root, law, "law_of_the_wall of a smooth wall, which goes by the viscosity, and fluid/viscosity is 0; give that, or a roughness");
+}
+
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
 void check_periodic(const Case& read, const Setting& root) {
   const TankCase& tank = read.tank;
@@ -149,7 +179,15 @@ void check_case(const Case& read, const Setting& root) {
     throw Error(nearest_setting(root, "gravity").place.describe() +
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
+  if (read.numerics.turbulence == Turbulence::none) {
+    const Setting* numerics = root.find("numerics");
+    if (numerics != nullptr && numerics->find("smagorinsky_coefficient") != nullptr)
+      clash(root, "numerics/smagorinsky_coefficient", "of numerics/turbulence: smagorinsky only; leave it out, or set that");
+  }
   check_walls(read, root);
+  check_friction(read, root, read.numerics.walls.friction, "numerics/walls/friction");
+  for (std::size_t b = 0; b < read.bodies.size(); ++b)
+    check_friction(read, root, read.bodies[b].skin_friction, join_path(join_path("bodies", b), "skin_friction"));
   check_periodic(read, root);
   check_levels(read, root);
   check_joints(read, root);
@@ -167,3 +205,14 @@ void check_case(const Case& read, const Setting& root) {
 }
 
 }  // namespace wavetank::scene
+
+namespace wavetank {
+
+FrictionCase friction_of(const Case& scene, std::size_t owner) {
+  FrictionCase friction = scene.numerics.walls.friction;
+  if (owner > 0 && scene.bodies[owner - 1].skin_friction.law != FrictionLaw::as_case) friction = scene.bodies[owner - 1].skin_friction;
+  if (scene.numerics.walls.slip == Slip::free_slip) friction.law = FrictionLaw::none;
+  return friction;
+}
+
+}  // namespace wavetank

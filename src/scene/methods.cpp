@@ -36,6 +36,15 @@ const std::vector<MethodWord<ViscosityModel>>& method_words() {
 }
 
 template <>
+const std::vector<MethodWord<Turbulence>>& method_words() {
+  static const std::vector<MethodWord<Turbulence>> words{
+      {Turbulence::none, "none", "nothing beside the viscosities above"},
+      {Turbulence::smagorinsky, "smagorinsky",
+       "Smagorinsky's eddy viscosity l² |S|, with l the lesser of C_s Δx and 0.41 times the distance of the nearest wall"}};
+  return words;
+}
+
+template <>
 const std::vector<MethodWord<Shifting>>& method_words() {
   static const std::vector<MethodWord<Shifting>> words{
       {Shifting::none, "none", "particles move with the water"},

@@ -22,13 +22,26 @@ int long_axes(const Discretisation& d, Precision precision) {
   return axes;
 }
 
+namespace {
+
+/// Whether all walls of the case have this friction.
+bool all_have(const Case& scene, FrictionLaw law) {
+  for (std::size_t owner = 0; owner <= scene.bodies.size(); ++owner)
+    if (friction_of(scene, owner).law != law) return false;
+  return true;
+}
+
+}  // namespace
+
 BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
   return {
       {"DIMENSIONS", scene.dimensions},
       {"USE_DOUBLE", choice.use_double},
-      {"NO_SLIP", n.walls.slip == Slip::no_slip},
+      {"NO_SLIP", !all_have(scene, FrictionLaw::none)},
+      {"FRICTION_LAWS",
+       n.walls.method != WallMethod::ghost && !all_have(scene, FrictionLaw::none) && !all_have(scene, FrictionLaw::viscous)},
       {"CLAMP_PRESSURE", n.negative_pressure == NegativePressure::clamped},
       {"ACOUSTIC_DAMPER", n.acoustic_damping > 0},
       {"FACETS", kind_of(n.walls) == WallKind::facets},

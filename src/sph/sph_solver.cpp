@@ -196,6 +196,22 @@ void SphSolver<Real>::set_wall_motions(const WallMotions& motions) {
   bind_kernels();
 }
 
+/// As field::motion_friction has it.
+static std::pair<double, double> on_device(const FrictionCase& friction) {
+  switch (friction.law) {
+    case FrictionLaw::viscous:
+      return {1, 0};
+    case FrictionLaw::law_of_the_wall:
+      return {2, friction.roughness};
+    case FrictionLaw::coefficient:
+      return {3, friction.coefficient};
+    case FrictionLaw::none:
+    case FrictionLaw::as_case:
+      break;
+  }
+  return {0, 0};
+}
+
 template <class Real>
 void SphSolver<Real>::place_walls(const WallMotions& motions) {
   std::vector<Real> values;
@@ -214,6 +230,10 @@ void SphSolver<Real>::place_walls(const WallMotions& motions) {
          {Eigen::Vector3d(poses_[o].place - discretisation_.origin), motion.velocity, motion.angular_velocity, motion.acceleration,
           motion.angular_acceleration, motion.surface_velocity})
       add(vector);
+    const FrictionCase friction = friction_of(case_, o);
+    const auto [law, size] = on_device(friction);
+    values.push_back(static_cast<Real>(law));
+    values.push_back(static_cast<Real>(size));
   }
   surroundings_.motions.set(device_, values);
   fastest_wall_ = fastest_wall(boxes_, centres_, motions);

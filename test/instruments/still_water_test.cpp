@@ -1,6 +1,7 @@
 // Instruments in water at rest, whose readings are known.
 #include <algorithm>
 
+#include "../common/error_of.h"
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
@@ -171,6 +172,47 @@ TEST(PressureProbe, ReadsNothingInTheAir) {
   scene.instruments.pressure_probes = {{"air", Vector3d(0.3, 0, 0.45)}, {"wall", Vector3d(0, 0, 0.45)}};
   const Samples samples = read_still_water(scene, 20).start;
   EXPECT_EQ(samples.pressures[0].pressures, std::vector<double>({0.0, 0.0}));
+}
+
+/// What a disc of 0.2 m at mid-height of the wall x = 0 reads more than a point there, of p = 1e4 z² Pa.
+double disc_over_point(Case scene) {
+  const Vector3d place(0, 0.5 * std::get<BoxTank>(scene.tank.shape).size.y(), 0.3);
+  scene.gravity = Vector3d::Zero();
+  scene.fluid.sound_speed = 20;
+  scene.fluid.initial.pressure = "1e4*z*z";
+  scene.instruments.pressure_probes = {{"point", place}, {"disc", place}};
+  scene.instruments.pressure_probes[1].diameter = 0.2;
+  Tank tank(scene);
+  tank.solver->start();
+  const RigidWorld world(tank.scene, tank.layout);
+  Recorder recorder(tank.scene, tank.layout, *tank.solver, world);
+  recorder.start(*tank.solver);
+  const std::vector<double> read = recorder.take().pressures.front().pressures;
+  return read[1] - read[0];
+}
+
+TEST(PressureProbe, WithADiameterReadsTheMeanOverItsDisc) {
+  // the mean of z² over a strip of length d is d²/12 more than in its middle, over a disc d²/16; what the kernel smooths is in both
+  const double strip = disc_over_point(box_case(Vector3d(0.6, 0, 0.8), 0.6, 0.02)) / (1e4 * 0.04 / 12);
+  const double disc = disc_over_point(box_case(Vector3d(0.3, 0.6, 0.8), 0.6, 0.03)) / (1e4 * 0.04 / 16);
+  std::printf("mean over the sensor less its middle, of the exact one: strip %.4f, disc %.4f\n", strip, disc);
+  EXPECT_NEAR(strip, 1, 0.03);
+  EXPECT_NEAR(disc, 1, 0.03);
+}
+
+TEST(PressureProbe, DiscThatIsNotOnOneWallIsRefused) {
+  Case scene = box_case(Vector3d(0.3, 0.6, 0.8), 0.6, 0.03);
+  const auto said = [&scene](const Vector3d& place, double diameter) {
+    scene.instruments.pressure_probes = {{"P", place}};
+    scene.instruments.pressure_probes[0].diameter = diameter;
+    return error_of([&scene] { lay_out(scene); });
+  };
+  EXPECT_EQ(said(Vector3d(0, 0.05, 0.3), 0.2),
+            "pressure probe 'P' at (0, 0.05, 0.3) m has a disc that reaches beyond its wall at (0, -0.05, 0.3) m; "
+            "make its diameter less, or move it");
+  EXPECT_EQ(said(Vector3d(0.15, 0.3, 0.3), 0.1),
+            "pressure probe 'P' at (0.15, 0.3, 0.3) m has a disc and lies on no wall; leave out its diameter, "
+            "or put it on a wall");
 }
 
 void expect_weight_on_tank(Case scene, double volume) {

@@ -52,6 +52,16 @@ TEST(SoundCase, Reads) { EXPECT_EQ(error_of(sound), "(no error)"); }
 
 TEST_P(BrokenCase, IsRefusedInOneClearSentence) { expect_refused(sound, GetParam()); }
 
+TEST(SoundCase, OfSmoothWallsNeedsAViscosity) {
+  std::string text = sound;
+  text.replace(text.find("density: 1000"), 13, "viscosity: 0");
+  text.replace(text.find("slip: no_slip"), 13, "friction: {law: law_of_the_wall}");
+  EXPECT_EQ(
+      error_of(text.c_str()),
+      "case.yaml:16: numerics/walls/friction/law is law_of_the_wall of a smooth wall, which goes by the viscosity, and fluid/viscosity is "
+      "0; give that, or a roughness");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Faults, BrokenCase,
     testing::Values(
@@ -194,6 +204,34 @@ INSTANTIATE_TEST_SUITE_P(
               {"case.yaml:21: instruments/wave_gauges/0/name is H 1; it must be a letter followed by"}},
         Fault{"NameFromADigit", "name: H1", "name: 1H", {"case.yaml:21: instruments/wave_gauges/0/name is 1H; it must be a letter"}},
         Fault{"ProbeWithoutName", "name: P1, ", "", {"case.yaml:19: instruments/pressure_probes/0/name is missing"}},
+        Fault{"FrictionWithoutSlip",
+              "{slip: no_slip}",
+              "{slip: free_slip, friction: {law: coefficient}}",
+              {"case.yaml:16: numerics/walls/friction/law is coefficient, of walls without slip, and numerics/walls/slip is free_slip"}},
+        Fault{"FrictionAtGhosts",
+              "  - {name: pier, box: {min: [1, 0, 0], max: [2, 1, 1]}}\nnumerics:\n  support: 3\n  courant: 0.4\n  walls: {slip: no_slip}",
+              "  []\nnumerics:\n  walls: {method: ghost, friction: {law: law_of_the_wall}}",
+              {"numerics/walls/friction/law is law_of_the_wall, which boundary integrals have and ghosts have not"}},
+        Fault{"RoughnessOfAnotherLaw",
+              "name: pier",
+              "name: pier, skin_friction: {law: viscous, roughness: 0.01}",
+              {"case.yaml:12: bodies/0/skin_friction/roughness is of the law law_of_the_wall only"}},
+        Fault{"CoefficientOfAnotherLaw",
+              "{slip: no_slip}",
+              "{friction: {coefficient: 0.01}}",
+              {"case.yaml:16: numerics/walls/friction/coefficient is of the law coefficient only"}},
+        Fault{"NegativeRoughness",
+              "{slip: no_slip}",
+              "{friction: {law: law_of_the_wall, roughness: -1}}",
+              {"numerics/walls/friction/roughness is -1; it must be at least 0 (m)"}},
+        Fault{"EddiesWithoutAModel",
+              "support: 3",
+              "smagorinsky_coefficient: 0.2",
+              {"case.yaml:14: numerics/smagorinsky_coefficient is of numerics/turbulence: smagorinsky only"}},
+        Fault{"SensorOfNegativeSize",
+              "name: P1, ",
+              "name: P1, diameter: -0.01, ",
+              {"instruments/pressure_probes/0/diameter is -0.01; it must be at least 0 (m)"}},
         Fault{"UnknownWord", "no_slip", "sticky", {"case.yaml:16: numerics/walls/slip is sticky; it must be one of no_slip, free_slip"}},
         Fault{"SupportTooSmall", "support: 3", "support: 1", {"case.yaml:14: numerics/support is 1; it must be from 2 to 8, or auto (Δx)"}},
         Fault{"CourantTooGreat",

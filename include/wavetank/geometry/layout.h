@@ -57,7 +57,8 @@ struct Layout {
   std::vector<bool> moving;          ///< of each owner: its walls move relative to the tank
   /// Owners of which the first one's walls may lie inside the second as they move against each other: both ways round.
   std::vector<std::pair<int, int>> intruding;
-  std::vector<FacetPiece> pieces;  ///< of those facets that may lie partly in such a body: all of each, ascending
+  std::vector<Vector3d> disc_normals;  ///< unit, of each pressure probe's wall where it has a disc, else zero
+  std::vector<FacetPiece> pieces;      ///< of those facets that may lie partly in such a body: all of each, ascending
 };
 
 /// Lays a case out: reads and checks the meshes, samples the walls, fills the fluid, makes the lid.

@@ -50,9 +50,9 @@ class Recorder {
     double after_time = -1;  ///< s, of that; none if negative
   };
 
-  /// Where the probes are now, in the tank.
+  /// Where the probes' points are now, in the tank.
   std::vector<Vector3d> places_of_probes() const;
-  void add_pressures(const Case& scene, const Solver& solver);
+  void add_pressures(const Case& scene, const Layout& layout, const Solver& solver);
   void add_levels(const Case& scene, const Layout& layout, const Solver& solver);
   void add_wrenches(const Case& scene);
   void add_poses(const Case& scene);
@@ -62,8 +62,9 @@ class Recorder {
   Vector3d gravity_;
   std::function<std::vector<WallWrench>(Solver&)> wrenches_;
   std::shared_ptr<PointSet> probes_;
-  std::vector<Vector3d> probe_places_;     ///< as the case's geometry has them, m
+  std::vector<Vector3d> probe_places_;     ///< of all points of all probes, as the case's geometry has them, m
   std::vector<std::size_t> probe_owners_;  ///< the body that each moves with; 0 = none
+  std::vector<std::size_t> probe_points_;  ///< how many each probe has, of which it reads the mean
   std::shared_ptr<WaveGauges> gauges_;
   std::vector<Instrument> instruments_;
   Samples samples_;

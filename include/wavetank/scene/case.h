@@ -168,6 +168,26 @@ struct RigidCase {
   std::vector<MooringCase> moorings;
 };
 
+/// What holds the water back along a wall.
+enum class FrictionLaw {
+  as_case,  ///< of a body: that of numerics/walls/friction
+  none,
+  viscous,          ///< μ u/d at each particle's distance d: of a boundary layer that the particles resolve
+  law_of_the_wall,  ///< ρ u_τ², with u_τ by the logarithmic law at each particle's distance, smooth or rough
+  coefficient       ///< ½ C_f ρ u²
+};
+
+struct FrictionCase {
+  FrictionLaw law = FrictionLaw::viscous;
+  double coefficient = 0.003;  ///< C_f of `coefficient`
+  double roughness = 0;        ///< m, the height k_s of Nikuradse's sand grains, of `law_of_the_wall`
+};
+
+/// Of a body.
+struct SkinFrictionCase : FrictionCase {
+  SkinFrictionCase() { law = FrictionLaw::as_case; }
+};
+
 struct TankCase {
   std::variant<BoxTank, MeshSource> shape;
   bool splash_guard =
@@ -182,6 +202,7 @@ struct BodyCase {
   std::variant<Box, MeshSource> shape;
   Motion motion = Motion::fixed;
   Vector3d surface_velocity = Vector3d::Zero();  ///< m/s, of a belt: its surface runs while the body stands
+  SkinFrictionCase skin_friction;
   RigidCase rigid;
 };
 
@@ -233,6 +254,7 @@ struct WallCase {
   ShepardFactor shepard = ShepardFactor::geometric;
   WallElements elements = WallElements::facet;
   Slip slip = Slip::no_slip;
+  FrictionCase friction;               ///< of walls without slip; not as_case
   bool renormalise_divergence = true;  ///< divide the velocity's divergence by the Shepard factor, as the pressure's gradient
   double repulsion = 0.0;              ///< of ghosts: short-range force as a multiple of (c₀/10)²; 0 = none
   double guard_distance = 0.1;         ///< of the spacing: nearer to a wall, a particle loses its approaching normal velocity; 0 = off
@@ -251,6 +273,8 @@ struct NumericsCase {
   double density_diffusion_coefficient = 0.1;  ///< δ
   double artificial_viscosity = 0.02;          ///< α
   double acoustic_damping = 0;                 ///< α₂
+  Turbulence turbulence = Turbulence::none;
+  double smagorinsky_coefficient = 0.15;  ///< C_s
   EquationOfState equation_of_state = EquationOfState::linear;
   ViscosityModel viscosity_model = ViscosityModel::monaghan_gingold;
   NegativePressure negative_pressure = NegativePressure::clamped;
@@ -267,6 +291,7 @@ struct PressureProbeCase {
   std::string name;
   Vector3d position = Vector3d::Zero();  ///< m, at the start
   std::string body;                      ///< that it is fixed to; empty = the tank
+  double diameter = 0;  ///< m, of the sensor's disc on its wall (2-D: length of its strip), whose mean it reads; 0 = a point
 };
 
 struct WaveGaugeCase {
@@ -311,5 +336,8 @@ struct Case {
   PublishingCase publishing;
   std::string directory;  ///< of the case file, that relative mesh paths refer to; empty when it came from parameters
 };
+
+/// What holds the water back along the walls of an owner: 0 the tank, 1 + i body i. Never as_case.
+FrictionCase friction_of(const Case& scene, std::size_t owner);
 
 }  // namespace wavetank

@@ -11,6 +11,7 @@ enum class Scheme { delta_sph, riemann_parshikov, riemann_ale };
 enum class DensityDiffusion { none, fourtakas, antuono };
 enum class EquationOfState { linear, cole };
 enum class ViscosityModel { monaghan_gingold, morris };
+enum class Turbulence { none, smagorinsky };
 enum class Shifting { none, monaghan, lind, oger, sun, michel };
 enum class Tensile { hybrid, plain, consistent, printed };
 enum class Integrator { symplectic, predictor_corrector, runge_kutta_4 };

@@ -46,6 +46,12 @@ INLINE void accelerate_tile(__constant const parameters_t* p, int first, int cou
     sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
 #endif
     const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
+#if FRICTION_LAWS
+    const real shepard = bounded_shepard(b.shepard);  // which the viscosity is not divided by
+    b.viscous_x *= shepard;
+    b.viscous_y *= shepard;
+    b.viscous_z *= shepard;
+#endif
     rates[RATE_U * stride + i] = (b.viscous_x - b.force_x) * per_mass + b.gravity.x;
     rates[RATE_V * stride + i] = DIMENSIONS == 3 ? (b.viscous_y - b.force_y) * per_mass + b.gravity.y : R(0.0);
     rates[RATE_W * stride + i] = (b.viscous_z - b.force_z) * per_mass + b.gravity.z;

@@ -1,10 +1,12 @@
 // Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
 // Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where
-// particles exchange mass, γ beside them. As pair.cl has them in the array.
+// particles exchange mass, γ beside them, and the eddy viscosity by the rate of strain. As pair.cl has them in the array.
 #include "walls.cl"
 #include "pair.cl"
+#include "turbulence.cl"
 #define SWEEP_PARTICLES
-#if GRADIENTS_AND_SHEPARD
+#define ASKS_WALLS (GRADIENTS_AND_SHEPARD || EDDIES)
+#if ASKS_WALLS
 #define SWEEP_WALLS
 #endif
 #define VELOCITIES (GRADIENT_OF_VELOCITY || GRADIENT_OF_STRAIN)
@@ -20,16 +22,34 @@ typedef struct {
 #endif
 } sweep_t;
 
-#if GRADIENTS_AND_SHEPARD
+#if ASKS_WALLS
 typedef struct {
   const walls_t* walls;
   real shepard;
+  real clearance;
 } wall_sweep_t;
 
 INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, real x, real y, real z) {
+  const contact_t c = see_wall(p, a->walls, s, x, y, z);
 #if SHEPARD_GEOMETRIC
-  a->shepard += see_wall(p, a->walls, s, x, y, z).shepard;
+  a->shepard += c.shepard;
 #endif
+#if EDDIES
+  a->clearance = fmin(a->clearance, wall_clearance(p, &c));
+#endif
+}
+#endif
+
+#if VELOCITIES
+// S:S of the velocity's gradients.
+INLINE real strain_squared(const real gradients[QUANTITIES][TILE_OWN][3], int k) {
+  real sum = R(0.0);
+  for (int of = 0; of < 3; ++of)
+    for (int axis = 0; axis < 3; ++axis) {
+      const real strain = R(0.5) * (gradients[1 + of][k][axis] + gradients[1 + axis][k][of]);
+      sum += strain * strain;
+    }
+  return sum;
 }
 #endif
 
@@ -119,23 +139,27 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
   const real f = p->slope_scale;
   renormalisation_t l[TILE_OWN];
   for (int k = 0; k < TILE_OWN; ++k) l[k] = renormalisation_of(f * xx[k], f * xy[k], f * xz[k], f * yy[k], f * yz[k], f * zz[k]);
-#if GRADIENTS_AND_SHEPARD
-#if SHEPARD_VOLUMETRIC
+#if ASKS_WALLS
+#if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
   real shepard[TILE_OWN];
   own_sums(a.shepard, shepard);
 #endif
+  real clearance[TILE_OWN];
   for (int k = 0; k < a.near.own; ++k) {
-#if SHEPARD_VOLUMETRIC
-    wall_sweep_t b = {&walls, shepard[k]};
+#if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
+    wall_sweep_t b = {&walls, shepard[k], p->support};
 #else
-    wall_sweep_t b = {&walls, SHEPARD_START};
+    wall_sweep_t b = {&walls, SHEPARD_START, p->support};
 #endif
 #if !GHOSTS
     stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
+#if GRADIENTS_AND_SHEPARD
     gradient[GRADIENT_SHEPARD * stride + first + k] = bounded_shepard(b.shepard);
+#endif
+    clearance[k] = b.clearance;
   }
 #endif
   real found[QUANTITIES][TILE_OWN][3];
@@ -156,6 +180,9 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
     int at = GRADIENT_U;
     for (int of = 0; of < 3; ++of)
       for (int axis = of; axis < 3; ++axis) to[at++ * stride] = R(0.5) * (found[1 + of][k][axis] + found[1 + axis][k][of]);
+#endif
+#if EDDIES
+    to[GRADIENT_EDDIES * stride] = (DIMENSIONS + R(2.0)) * p->density * eddy_viscosity(p, strain_squared(found, k), clearance[k]);
 #endif
   }
 }

@@ -13,6 +13,8 @@
 #include "equation_of_state.cl"
 #include "scheme.cl"
 #include "viscosity.cl"
+#include "turbulence.cl"
+#include "friction.cl"
 #if BOTH_RATES
 #include "continuity_sums.cl"
 #endif
@@ -22,6 +24,9 @@
 // what one particle gives another walls have no part in
 #define CARRIES_MOMENTUM (EXCHANGES_MASS && !WALL_FORCES)
 #define NEEDS_FIT (FACETS || THIN_WALLS)
+// The viscosity along the line of centres is summed apart: for forces on walls, and where a law of friction says what walls take, so that 1/γ, which
+// makes up for the neighbours that walls have in the place of water, makes no shear of its own there.
+#define VISCOSITY_APART (WALL_FORCES || FRICTION_LAWS)
 
 typedef struct {
   neighbours_t near;
@@ -35,12 +40,15 @@ typedef struct {
   tile_vector_t gravity;
 #endif
 #endif
-  tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres, which WALL_FORCES keeps apart
+  tile force_x, force_y, force_z;  // Σ (p_i+p_j) ∇W V, less the viscosity along the line of centres unless it is apart
 #if WALL_FORCES && THIN_WALLS
   tile across_x, across_y, across_z;  // of that the part of neighbours that the watched owner's thin walls hide: it goes through them, who have it
 #endif
-#if WALL_FORCES || VISCOSITY_SHEARS
+#if VISCOSITY_APART || VISCOSITY_SHEARS
   tile viscous_x, viscous_y, viscous_z;
+#endif
+#if EDDIES
+  tile eddies;
 #endif
 #if CARRIES_MOMENTUM
   tile own_shepard;
@@ -115,14 +123,19 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->viscous_y += shear * pair.relative.y;
 #endif
 #endif
-#if WALL_FORCES
-  const tile friction = slope_volume * p->pair_viscosity * pair.approach * inverse;
+#if EDDIES
+  const tile pair_viscosity = p->pair_viscosity + a->eddies + near_values(a->gradient + GRADIENT_EDDIES * a->near.stride, j);
+#else
+  const real pair_viscosity = p->pair_viscosity;
+#endif
+#if VISCOSITY_APART
+  const tile friction = slope_volume * pair_viscosity * pair.approach * inverse;
   a->viscous_x += friction * rx;
   a->viscous_y += friction * ry;
   a->viscous_z += friction * rz;
   const tile central = slope_volume * exchange.pressure;
 #else
-  const tile central = slope_volume * (exchange.pressure - p->pair_viscosity * pair.approach * inverse);
+  const tile central = slope_volume * (exchange.pressure - pair_viscosity * pair.approach * inverse);
 #endif
   a->force_x += central * rx;
   a->force_z += central * rz;
@@ -231,14 +244,18 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   const vector_t wall = wall_velocity(a->walls, s, c.normal, foot_x, foot_y, foot_z);
   const vector_t relative = make_vector(a->u - wall.x, a->v - wall.y, a->w - wall.z);
   const real normal_speed = dot3(relative, c.normal);
-  const real drag = R(2.0) * WALL_DRAG * p->viscosity * c.weight / fmax(fabs(c.distance), R(0.5) * p->spacing);
-  a->viscous_x -= drag * (relative.x - normal_speed * c.normal.x);
-  a->viscous_y -= drag * (relative.y - normal_speed * c.normal.y);
-  a->viscous_z -= drag * (relative.z - normal_speed * c.normal.z);
+  const vector_t along = make_vector(relative.x - normal_speed * c.normal.x, relative.y - normal_speed * c.normal.y, relative.z - normal_speed * c.normal.z);
+  const real from_wall = fmax(fabs(c.distance), R(0.5) * p->spacing);
+#if FRICTION_LAWS
+  const real drag = c.weight == R(0.0) ? R(0.0) : R(2.0) * c.weight * friction_by_law(p, MOTION_OF(a->walls, s) + MOTION_FRICTION, from_wall, along);
+#else
+  const real drag = R(2.0) * WALL_DRAG * p->viscosity * c.weight / from_wall;
+#endif
+  a->viscous_x -= drag * along.x;
+  a->viscous_y -= drag * along.y;
+  a->viscous_z -= drag * along.z;
 #if WALL_FORCES
-  if (own)
-    a->drag = make_vector(a->drag.x - drag * (relative.x - normal_speed * c.normal.x), a->drag.y - drag * (relative.y - normal_speed * c.normal.y),
-                          a->drag.z - drag * (relative.z - normal_speed * c.normal.z));
+  if (own) a->drag = make_vector(a->drag.x - drag * along.x, a->drag.y - drag * along.y, a->drag.z - drag * along.z);
 #endif
 #endif
 }
@@ -293,6 +310,9 @@ INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, 
   a->w = own_values(state + FIELD_W * stride, first);
   a->gradient = gradient;
   a->own = scheme_own(&a->near, gradient, first);
+#if EDDIES
+  a->eddies = own_values(gradient + GRADIENT_EDDIES * stride, first);
+#endif
 #if CARRIES_MOMENTUM
   a->own_shepard = own_values(gradient + GRADIENT_SHEPARD * stride, first);
 #endif
@@ -338,7 +358,7 @@ typedef struct {
 #if WALL_FORCES && THIN_WALLS
   places_t across;
 #endif
-#if WALL_FORCES || VISCOSITY_SHEARS
+#if VISCOSITY_APART || VISCOSITY_SHEARS
   places_t viscous;
 #endif
 #if CARRIES_MOMENTUM
@@ -362,7 +382,7 @@ INLINE void finish_particles(const sweep_t* a, pair_sums_t* s) {
   own_sums(a->across_y, s->across.y);
   own_sums(a->across_z, s->across.z);
 #endif
-#if WALL_FORCES || VISCOSITY_SHEARS
+#if VISCOSITY_APART || VISCOSITY_SHEARS
   own_sums(a->viscous_x, s->viscous.x);
   own_sums(a->viscous_y, s->viscous.y);
   own_sums(a->viscous_z, s->viscous.z);
@@ -385,7 +405,7 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
   b->force_x = p->slope_scale * s->force.x[k];
   b->force_y = p->slope_scale * s->force.y[k];
   b->force_z = p->slope_scale * s->force.z[k];
-#if WALL_FORCES || VISCOSITY_SHEARS
+#if VISCOSITY_APART || VISCOSITY_SHEARS
   b->viscous_x = p->slope_scale * s->viscous.x[k];
   b->viscous_y = p->slope_scale * s->viscous.y[k];
   b->viscous_z = p->slope_scale * s->viscous.z[k];

@@ -31,6 +31,7 @@ INLINE pair_t pair_of(const neighbours_t* n, int j, tile rx, tile ry, tile rz, t
 #define GRADIENT_COMPRESSION 0  // three values
 #define GRADIENT_U 3            // of u, then v, then w, three values each (GRADIENT_OF_VELOCITY); or the rate of strain, six (GRADIENT_OF_STRAIN)
 #define GRADIENT_SHEPARD 12     // and, where particles exchange mass, γ
+#define GRADIENT_EDDIES (GRADIENT_OF_STRAIN ? 9 : 13)  // and (d+2) ρ₀ times the eddy viscosity
 
 INLINE tile_vector_t own_gradient(const neighbours_t* n, __global const real* gradient, int of, int first) {
   __global const real* g = gradient + of * n->stride;

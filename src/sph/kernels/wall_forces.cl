@@ -79,7 +79,11 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
 #if THIN_WALLS
   f.push = mixed(R(1.0), f.push, p->slope_scale, make_vector(sums->across.x[k], sums->across.y[k], sums->across.z[k]));
 #endif
+#if FRICTION_LAWS
+  f.drag = mixed(R(-1.0), b.drag, R(0.0), b.drag);
+#else
   f.drag = mixed(R(-1.0), b.drag, missing, make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z));
+#endif
   const real inverse = R(1.0) / b.touched;
   f.place = make_vector(b.touched_at.x * inverse, b.touched_at.y * inverse, b.touched_at.z * inverse);
 #endif

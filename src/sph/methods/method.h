@@ -23,6 +23,7 @@ struct Method {
   bool needs_velocity_gradient = false;     ///< likewise
   bool needs_strain_rate = false;           ///< likewise, where nothing needs the whole of that
   bool needs_shepard_factors = false;       ///< of neighbours, beside the gradients
+  bool brings_eddy_viscosity = false;       ///< found with the gradients
   bool accelerates_by_gradients = false;    ///< needs them at every state of which accelerations are found too
   std::string code = {};                    ///< in place of that file's
 };
@@ -38,9 +39,11 @@ Method scheme_of(const Case& scene);
 Method density_diffusion_of(const Case& scene);
 Method viscosity_of(const Case& scene);
 Method equation_of_state_of(const Case& scene);
+Method turbulence_of(const Case& scene);
 Method shifting_of(const Case& scene);
 
-/// Components of gradients that kernels find for them: none, those of the compression, the rate of strain or the velocity's too, and γ.
+/// Components of gradients that kernels find for them: none, those of the compression, the rate of strain or the velocity's too, γ,
+/// and the eddy viscosity.
 int gradient_components(const Methods& methods);
 
 /// Whether accelerations need them too.

@@ -5,7 +5,8 @@
 namespace wavetank {
 
 Methods methods_of(const Case& scene) {
-  return {scheme_of(scene), density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene), shifting_of(scene)};
+  return {scheme_of(scene),     density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene),
+          turbulence_of(scene), shifting_of(scene)};
 }
 
 namespace {
@@ -17,6 +18,9 @@ bool any_has(const Methods& methods, bool Method::*flag) {
 }  // namespace
 
 int gradient_components(const Methods& methods) {
+  const bool eddies = any_has(methods, &Method::brings_eddy_viscosity);
+  if (eddies && any_has(methods, &Method::needs_velocity_gradient)) return 14;
+  if (eddies) return 10;
   if (any_has(methods, &Method::needs_shepard_factors)) return 13;
   if (any_has(methods, &Method::needs_velocity_gradient)) return 12;
   if (any_has(methods, &Method::needs_strain_rate)) return 9;

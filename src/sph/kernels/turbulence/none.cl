@@ -1,0 +1,2 @@
+// No eddies below the spacing.
+#define EDDIES 0
