@@ -165,17 +165,17 @@ EnergySample Recorder::energies(Solver& fluid, double time) const {
     const Vector3d centre = tank.moved(found.mass_centre, world_.reference(0));
     potential -= found.mass * gravity_.dot(centre - found.mass_centre);
   }
-  return {time, found.kinetic, potential, found.compression, found.mass};
+  return {time, found.kinetic, potential, found.compression, found.mass, found.damper_power};
 }
 
 void Recorder::add_energies(const Case& scene) {
   instruments_.push_back({SampleClock(scene.instruments.energy_rate.value_or(scene.instruments.rate)),
                           [this](Solver& fluid) {
                             const EnergySample energies = this->energies(fluid, 0);
-                            return Values{energies.kinetic, energies.potential, energies.compression, energies.mass};
+                            return Values{energies.kinetic, energies.potential, energies.compression, energies.mass, energies.damper_power};
                           },
                           [this](double time, const Values& values) {
-                            samples_.energies.push_back({time, values[0], values[1], values[2], values[3]});
+                            samples_.energies.push_back({time, values[0], values[1], values[2], values[3], values[4]});
                           }});
 }
 

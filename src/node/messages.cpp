@@ -120,6 +120,7 @@ SolverStatus status_message(const Case& checked, const SolverState& solver, cons
   message.kinetic_energy = energies.kinetic;
   message.potential_energy = energies.potential;
   message.compression_energy = energies.compression;
+  message.damper_power = energies.damper_power;
   message.greatest_speed = solver.greatest_speed;
   message.real_time_factor = run.real_time_factor;
   message.steps_per_second = run.steps_per_second;

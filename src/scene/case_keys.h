@@ -14,7 +14,10 @@ const KeyDescription& case_keys();
 /// Where gauges stand depends on gravity: along its axis they have no place.
 void place_gauges(Case& read, const Setting& root);
 
-/// δ-SPH's diffusion and artificial viscosity are the defaults of that scheme only.
+/// α₂ of a case file that does not give it, with δ-SPH and the symplectic integrator: the most that costs no time step.
+inline constexpr double usual_acoustic_damping = 2;
+
+/// δ-SPH's diffusion, artificial viscosity and acoustic damper are the defaults of that scheme only.
 void choose_dissipation(Case& read, const Setting& root);
 
 /// Checks that concern several keys of a case that has been read from `root`: names given twice, gravity out of a 2-D case's plane, ...

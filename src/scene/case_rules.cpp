@@ -164,9 +164,12 @@ void place_gauges(Case& read, const Setting& root) {
 }
 
 void choose_dissipation(Case& read, const Setting& root) {
-  if (read.numerics.scheme == Scheme::delta_sph) return;
   const Setting* numerics = root.find("numerics");
   const auto given = [&](const char* key) { return numerics != nullptr && numerics->find(key) != nullptr; };
+  const bool delta_sph = read.numerics.scheme == Scheme::delta_sph;
+  if (!given("acoustic_damping"))
+    read.numerics.acoustic_damping = delta_sph && read.numerics.integrator == Integrator::symplectic ? usual_acoustic_damping : 0;
+  if (delta_sph) return;
   if (!given("density_diffusion")) read.numerics.density_diffusion = DensityDiffusion::none;
   if (!given("artificial_viscosity")) read.numerics.artificial_viscosity = 0;
 }

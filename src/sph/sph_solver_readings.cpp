@@ -66,7 +66,7 @@ FluidEnergies SphSolver<Real>::energies() {
   kernels_.energy_chunks.launch(chunks_);
   energy_sums_.sum(chunks_);
   const std::vector<Real> total = energy_sums_.download();
-  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin};
+  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin, total[7]};
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
   const Eigen::Vector3d up = upward(case_);

@@ -290,6 +290,35 @@ TEST(CaseReader, RiemannSchemesHaveNoOtherDissipationUnlessItIsGiven) {
   EXPECT_EQ(read_case_text(smallest, "smallest").numerics.density_diffusion, DensityDiffusion::fourtakas);
 }
 
+TEST(CaseReader, TheAcousticDamperIsOnWhereItCostsNothing) {
+  const auto damping = [](const std::vector<Override>& set) {
+    return read_case_text(smallest, "smallest", set).numerics.acoustic_damping;
+  };
+  EXPECT_EQ(damping({}), 2);
+  EXPECT_EQ(damping({{"numerics/acoustic_damping", "0"}}), 0);
+  EXPECT_EQ(damping({{"numerics/scheme", "riemann_parshikov"}}), 0);
+  EXPECT_EQ(damping({{"numerics/scheme", "riemann_ale"}, {"numerics/acoustic_damping", "1"}}), 1);
+  EXPECT_EQ(damping({{"numerics/integrator", "runge_kutta_4"}}), 0);
+}
+
+TEST(CaseReader, ReadsFrictionAndSensorsAndWritesThemBack) {
+  const Case read = read_case_text(
+      smallest, "smallest",
+      {{"numerics/walls/friction/law", "law_of_the_wall"},
+       {"numerics/walls/friction/roughness", "0.002"},
+       {"numerics/turbulence", "smagorinsky"},
+       {"bodies/0", "{name: hull, box: {min: [0, 0, 0], max: [0.5, 0.5, 0.5]}, skin_friction: {law: coefficient, coefficient: 0.004}}"},
+       {"instruments/pressure_probes/0", "{name: P, position: [0, 0.5, 0.5], diameter: 0.02}"}});
+  for (const Case& scene : {read, read_case_text(write_case(read), "written")}) {
+    EXPECT_EQ(friction_of(scene, 0).law, FrictionLaw::law_of_the_wall);
+    EXPECT_EQ(friction_of(scene, 0).roughness, 0.002);
+    EXPECT_EQ(friction_of(scene, 1).law, FrictionLaw::coefficient);
+    EXPECT_EQ(friction_of(scene, 1).coefficient, 0.004);
+    EXPECT_EQ(scene.numerics.turbulence, Turbulence::smagorinsky);
+    EXPECT_EQ(scene.instruments.pressure_probes[0].diameter, 0.02);
+  }
+}
+
 TEST(CaseReader, ReadsInitialFieldsAndWritesThemBack) {
   const std::string text = std::string(smallest) + "numerics: {shifting: michel, tensile: plain, expected_speed: 2.5}\n";
   const Case read = read_case_text(text, "smallest", {{"fluid/initial/u", "sin(2*pi*x)"}, {"fluid/initial/pressure", "1000*9.81*(1 - z)"}});

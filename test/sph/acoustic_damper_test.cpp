@@ -77,6 +77,23 @@ TEST(AcousticDamper, TakesSoundAwayAsABulkViscosityDoes) {
   }
 }
 
+/// Of a standing sound wave, which loses a third of its energy.
+TEST(AcousticDamper, TellsWhatItTakes) {
+  DampedSquare square(Scheme::delta_sph, 0.5);
+  square.set([](double x, double) { return std::array<double, 2>{0.1 * std::sin(wave_number * x), 0.0}; });
+  const double before = square.energy_after(1e-6), period = side / sound_speed;
+  double taken = 0, after = before, power = square.solver->energies().damper_power;
+  constexpr int readings = 100;
+  for (int k = 0; k < readings; ++k) {
+    after = square.energy_after(period / readings);
+    const double next = square.solver->energies().damper_power;
+    taken += 0.5 * (power + next) * period / readings;
+    power = next;
+  }
+  std::printf("energy lost %.4g J/m, of %.4g; taken by the damper %.4g J/m\n", before - after, before, taken);
+  EXPECT_NEAR(taken, before - after, 0.03 * (before - after));
+}
+
 /// With the other terms of a case as they are unless it says otherwise, in 3-D, and damping far beyond what the usual step bears.
 TEST(AcousticDamper, LeavesWaterThatFallsFinite) {
   for (const int dimensions : {2, 3}) {

@@ -43,11 +43,12 @@ struct PoseSample {
 
 /// Of the water.
 struct EnergySample {
-  double time = 0;         ///< s
-  double kinetic = 0;      ///< J (2-D: J/m), of its motion in the tank
-  double potential = 0;    ///< J, −Σ m g·x about the domain's lowest place at the start, wherever the tank is
-  double compression = 0;  ///< J, of the fluid's elasticity
-  double mass = 0;         ///< kg (2-D: kg/m)
+  double time = 0;          ///< s
+  double kinetic = 0;       ///< J (2-D: J/m), of its motion in the tank
+  double potential = 0;     ///< J, −Σ m g·x about the domain's lowest place at the start, wherever the tank is
+  double compression = 0;   ///< J, of the fluid's elasticity
+  double mass = 0;          ///< kg (2-D: kg/m)
+  double damper_power = 0;  ///< W (2-D: W/m), that the acoustic damper takes of sound
 };
 
 /// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.

@@ -75,6 +75,7 @@ struct FluidEnergies {
   double compression = 0;                                 ///< J
   double mass = 0;                                        ///< kg (2-D: kg/m)
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
+  double damper_power = 0;                                ///< W (2-D: W/m), that the acoustic damper takes of sound
 };
 
 /// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.

@@ -107,6 +107,7 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_COMPRESSION 2
 #define ENERGY_MASS 3
 #define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
+#define ENERGY_DAMPER 7       // a second, that the acoustic damper takes
 
 // Water whose tension is taken away stores none.
 INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }
@@ -128,7 +129,8 @@ __kernel void sum_rows(int rows, int columns, __global const real* from, __globa
   to[item] = sum;
 }
 
-__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global real* energies) {
+__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const real* rates,
+                            __global real* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
@@ -144,6 +146,10 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
     add_compensated(mass, &sums[ENERGY_MASS], &rests[ENERGY_MASS]);
     for (int axis = 0; axis < 3; ++axis)
       add_compensated(mass * state[(FIELD_X + axis) * stride + i], &sums[ENERGY_MOMENT + axis], &rests[ENERGY_MOMENT + axis]);
+#if ACOUSTIC_DAMPER
+    const real rate = rates[RATE_COMPRESSION * stride + i];
+    add_compensated(state[FIELD_VOLUME * stride + i] * p->bulk_viscosity * rate * rate, &sums[ENERGY_DAMPER], &rests[ENERGY_DAMPER]);
+#endif
   }
   for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
 }

@@ -74,7 +74,7 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   /* images, drains, reductions */ \
   ROW(image_count, 37, "values of a mirror or a period") \
   ROW(drain_count, 12, "centre, and three vectors along which its faces are at −1 and 1") \
-  ROW(energy_count, 7, "kinetic, potential, of compression, mass, and three moments of mass") \
+  ROW(energy_count, 8, "kinetic, potential, of compression, mass, three moments of mass, and the acoustic damper's power") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")
 // clang-format on
