@@ -174,8 +174,9 @@ Section<WallCase> wall_section() {
       "exactly.");
   section.key("slip", &WallCase::slip, choice<Slip>({{"no_slip", Slip::no_slip}, {"free_slip", Slip::free_slip}}), "",
               "The fluid's velocity along a wall.");
-  section.key("friction", &WallCase::friction, section_of(friction_section<FrictionCase>()), "",
-              "Of the water along walls with `no_slip`, where no body says otherwise; by boundary integrals.");
+  section.key_where([](const WallCase& walls) { return walls.slip == Slip::no_slip; }, "friction", &WallCase::friction,
+                    section_of(friction_section<FrictionCase>()), "",
+                    "Of the water along walls with `no_slip`, where no body says otherwise; by boundary integrals.");
   section.key("renormalise_divergence", &WallCase::renormalise_divergence, flag(), "",
               "With fourtakas or no diffusion: whether the velocity's divergence is divided by the Shepard factor's root, and diffusion by "
               "the factor.");

@@ -14,7 +14,8 @@ const KeyDescription& case_keys();
 /// Where gauges stand depends on gravity: along its axis they have no place.
 void place_gauges(Case& read, const Setting& root);
 
-/// α₂ of a case file that does not give it, with δ-SPH and the symplectic integrator: the most that costs no time step.
+/// α₂ of a case file that does not give it, with δ-SPH and the symplectic integrator: the most that
+/// costs no time step with the usual `courant` and `artificial_viscosity`.
 inline constexpr double usual_acoustic_damping = 2;
 
 /// δ-SPH's diffusion, artificial viscosity and acoustic damper are the defaults of that scheme only.

@@ -74,9 +74,14 @@ const char* word_of(FrictionLaw law) {
 
 /// Of walls whose friction is said at `path`.
 void check_friction(const Case& read, const Setting& root, const FrictionCase& friction, const std::string& path) {
-  if (friction.law == FrictionLaw::as_case || friction.law == FrictionLaw::viscous) return;
   const WallCase& walls = read.numerics.walls;
   const std::string law = join_path(path, "law");
+  const Setting& nearest = nearest_setting(root, law);
+  const bool given = &nearest != &nearest_setting(root, path);  // not the default
+  if (friction.law == FrictionLaw::as_case || !given) return;
+  if (walls.method == WallMethod::ghost && friction.law == FrictionLaw::none)
+    clash(root, law, "none, which is said of ghosts by numerics/walls/slip: free_slip; leave it out, and set that");
+  if (friction.law == FrictionLaw::viscous && walls.slip == Slip::no_slip) return;
   if (walls.method == WallMethod::ghost)
     clash(root, law,
           std::string(word_of(friction.law)) +

@@ -12,6 +12,22 @@
 namespace wavetank {
 namespace {
 
+/// As field::motion_friction has them: the law, and its roughness or coefficient.
+std::array<double, 2> friction_values(const FrictionCase& friction) {
+  switch (friction.law) {
+    case FrictionLaw::viscous:
+      return {field::friction_viscous, 0};
+    case FrictionLaw::law_of_the_wall:
+      return {field::friction_of_the_wall, friction.roughness};
+    case FrictionLaw::coefficient:
+      return {field::friction_coefficient, friction.coefficient};
+    case FrictionLaw::none:
+    case FrictionLaw::as_case:
+      break;
+  }
+  return {field::friction_none, 0};
+}
+
 bool moves(const WallMotion& motion) {
   return !(motion.velocity.isZero(0) && motion.angular_velocity.isZero(0) && motion.acceleration.isZero(0) &&
            motion.angular_acceleration.isZero(0) && motion.surface_velocity.isZero(0));
@@ -91,6 +107,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
   values_.emplace(rows.parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
   accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
+  compresses_by_gradients_ = compress_by_gradients(rows.methods(scene));
   add_options(rows.methods(scene), options_);
   add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);
@@ -196,22 +213,6 @@ void SphSolver<Real>::set_wall_motions(const WallMotions& motions) {
   bind_kernels();
 }
 
-/// As field::motion_friction has it.
-static std::pair<double, double> on_device(const FrictionCase& friction) {
-  switch (friction.law) {
-    case FrictionLaw::viscous:
-      return {1, 0};
-    case FrictionLaw::law_of_the_wall:
-      return {2, friction.roughness};
-    case FrictionLaw::coefficient:
-      return {3, friction.coefficient};
-    case FrictionLaw::none:
-    case FrictionLaw::as_case:
-      break;
-  }
-  return {0, 0};
-}
-
 template <class Real>
 void SphSolver<Real>::place_walls(const WallMotions& motions) {
   std::vector<Real> values;
@@ -230,10 +231,7 @@ void SphSolver<Real>::place_walls(const WallMotions& motions) {
          {Eigen::Vector3d(poses_[o].place - discretisation_.origin), motion.velocity, motion.angular_velocity, motion.acceleration,
           motion.angular_acceleration, motion.surface_velocity})
       add(vector);
-    const FrictionCase friction = friction_of(case_, o);
-    const auto [law, size] = on_device(friction);
-    values.push_back(static_cast<Real>(law));
-    values.push_back(static_cast<Real>(size));
+    for (const double value : friction_values(friction_of(case_, o))) values.push_back(static_cast<Real>(value));
   }
   surroundings_.motions.set(device_, values);
   fastest_wall_ = fastest_wall(boxes_, centres_, motions);
@@ -294,7 +292,7 @@ void SphSolver<Real>::find_accelerations(Slot state) {
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates(Slot state) {
-  find_gradients(state);
+  if (compresses_by_gradients_) find_gradients(state);
   kernels_.continuity[state].launch(count_);
 }
 

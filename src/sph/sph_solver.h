@@ -176,6 +176,7 @@ class SphSolver final : public Solver, private StepEngine {
   bool ghosts_ = false;
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
   bool accelerates_by_gradients_ = false;
+  bool compresses_by_gradients_ = false;
   int long_axes_ = 0;  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;

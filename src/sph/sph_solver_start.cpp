@@ -136,7 +136,8 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
   std::vector<Real> still = moving;
   for (int k = 0; k < 9; ++k) still[k] = k < 3 ? static_cast<Real>(rest[k]) : Real(0);  // of the frame
   for (std::size_t k = field::frame_count; k < still.size(); ++k)
-    if ((k - field::frame_count) % field::motion_count >= 3) still[k] = Real(0);
+    if (const std::size_t at = (k - field::frame_count) % field::motion_count; at >= field::motion_velocity && at < field::motion_friction)
+      still[k] = Real(0);
   upload_parameters(damped);
   surroundings_.motions.set(device_, still);
   std::swap(walls_, supported);

@@ -156,6 +156,7 @@ TEST(StatusMessage, CarriesStateEnergiesAndRun) {
   EnergySample energies;
   energies.kinetic = 1.5;
   energies.mass = 998.0;
+  energies.damper_power = 0.125;
   RunState run;
   run.phase = SolverStatus::RUNNING;
   run.device = "a device";
@@ -170,6 +171,7 @@ TEST(StatusMessage, CarriesStateEnergiesAndRun) {
   EXPECT_EQ(status.particles, 4711U);
   EXPECT_EQ(status.kinetic_energy, 1.5);
   EXPECT_EQ(status.mass, 998.0);
+  EXPECT_EQ(status.damper_power, 0.125);
   EXPECT_EQ(status.real_time_factor, 0.25);
   EXPECT_EQ(status.guard_hits, 3U);
   EXPECT_EQ(status.duration, 2.0);

@@ -45,9 +45,9 @@ INLINE void accelerate_tile(__constant const parameters_t* p, int first, int cou
     LOOK_THROUGH(*walls, a.near, k);
     sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
 #endif
-    const real per_mass = R(1.0) / (bounded_shepard(b.shepard) * b.density);
-#if FRICTION_LAWS
-    const real shepard = bounded_shepard(b.shepard);  // which the viscosity is not divided by
+    const real shepard = bounded_shepard(b.shepard);
+    const real per_mass = R(1.0) / (shepard * b.density);
+#if FRICTION_LAWS  // the viscosity is not divided by it
     b.viscous_x *= shepard;
     b.viscous_y *= shepard;
     b.viscous_z *= shepard;

@@ -40,9 +40,23 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 }
 #endif
 
+#if GHOSTS && EDDIES
+// From the nearest of the planes that mirror.
+INLINE real distance_from_planes(__constant const parameters_t* p, __global const real* images, real x, real y, real z) {
+  real nearest = p->support;
+  for (int k = 0; k < p->images; ++k) {
+    __global const real* image = images + k * IMAGE_COUNT;
+    if (image[IMAGE_MIRRORED] < R(0.5)) continue;
+    __global const real* plane = image + IMAGE_NEAR;
+    nearest = fmin(nearest, plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
+  }
+  return nearest;
+}
+#endif
+
 #if VELOCITIES
 // S:S of the velocity's gradients.
-INLINE real strain_squared(const real gradients[QUANTITIES][TILE_OWN][3], int k) {
+INLINE real strain_squared(real gradients[QUANTITIES][TILE_OWN][3], int k) {
   real sum = R(0.0);
   for (int of = 0; of < 3; ++of)
     for (int axis = 0; axis < 3; ++axis) {
@@ -151,7 +165,11 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
 #else
     wall_sweep_t b = {&walls, SHEPARD_START, p->support};
 #endif
-#if !GHOSTS
+#if GHOSTS
+#if EDDIES
+    b.clearance = distance_from_planes(p, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+#endif
+#else
     stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);

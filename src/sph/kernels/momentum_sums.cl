@@ -247,7 +247,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
   const vector_t along = make_vector(relative.x - normal_speed * c.normal.x, relative.y - normal_speed * c.normal.y, relative.z - normal_speed * c.normal.z);
   const real from_wall = fmax(fabs(c.distance), R(0.5) * p->spacing);
 #if FRICTION_LAWS
-  const real drag = c.weight == R(0.0) ? R(0.0) : R(2.0) * c.weight * friction_by_law(p, MOTION_OF(a->walls, s) + MOTION_FRICTION, from_wall, along);
+  // not on what stands behind the wall's plane, beside it
+  const bool touches = c.weight != R(0.0) && c.distance > -BEHIND_TOLERANCE * p->spacing;
+  const real drag = touches ? R(2.0) * c.weight * friction_by_law(p, MOTION_OF(a->walls, s) + MOTION_FRICTION, from_wall, along) : R(0.0);
 #else
   const real drag = R(2.0) * WALL_DRAG * p->viscosity * c.weight / from_wall;
 #endif

@@ -112,6 +112,16 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 // Water whose tension is taken away stores none.
 INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }
 
+#if ACOUSTIC_DAMPER
+EQUATION_OF_STATE(real, stated)
+
+// What the damper adds to the pressure that moves the water: less than its own where that would be tension.
+INLINE real damper_pressure(__constant const parameters_t* p, real s, real rate) {
+  const real without = stated_pressure(p, s), with = without + p->bulk_viscosity * rate;
+  return CLAMP_PRESSURE ? fmax(with, R(0.0)) - fmax(without, R(0.0)) : with - without;
+}
+#endif
+
 INLINE void add_compensated(real value, real* sum, real* rest) {
   const real wanted = value - *rest;
   const real total = *sum + wanted;
@@ -148,7 +158,7 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
       add_compensated(mass * state[(FIELD_X + axis) * stride + i], &sums[ENERGY_MOMENT + axis], &rests[ENERGY_MOMENT + axis]);
 #if ACOUSTIC_DAMPER
     const real rate = rates[RATE_COMPRESSION * stride + i];
-    add_compensated(state[FIELD_VOLUME * stride + i] * p->bulk_viscosity * rate * rate, &sums[ENERGY_DAMPER], &rests[ENERGY_DAMPER]);
+    add_compensated(state[FIELD_VOLUME * stride + i] * rate * damper_pressure(p, s, rate), &sums[ENERGY_DAMPER], &rests[ENERGY_DAMPER]);
 #endif
   }
   for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];

@@ -46,8 +46,11 @@ Method shifting_of(const Case& scene);
 /// and the eddy viscosity.
 int gradient_components(const Methods& methods);
 
-/// Whether accelerations need them too.
+/// Whether accelerations need them.
 bool accelerate_by_gradients(const Methods& methods);
+
+/// Whether rates of compression do.
+bool compress_by_gradients(const Methods& methods);
 
 /// Sets what kernels are compiled with for them.
 void add_options(const Methods& methods, BuildOptions& options);

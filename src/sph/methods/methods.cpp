@@ -29,6 +29,8 @@ int gradient_components(const Methods& methods) {
 
 bool accelerate_by_gradients(const Methods& methods) { return any_has(methods, &Method::accelerates_by_gradients); }
 
+bool compress_by_gradients(const Methods& methods) { return any_has(methods, &Method::needs_compression_gradient); }
+
 void add_options(const Methods& methods, BuildOptions& options) {
   const bool velocity = any_has(methods, &Method::needs_velocity_gradient);
   options["GRADIENT_OF_VELOCITY"] = velocity;

@@ -8,7 +8,6 @@ Method turbulence_of(const Case& scene) {
   if (turbulence == Turbulence::none) return method;
   method.parameters = {{"eddy_length", "m", "C_s Δx",
                         [](const ParameterSource& s) { return s.scene.numerics.smagorinsky_coefficient * s.discretisation.spacing; }}};
-  method.needs_compression_gradient = true;
   method.needs_strain_rate = true;
   method.accelerates_by_gradients = true;
   method.brings_eddy_viscosity = true;

@@ -61,7 +61,12 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   /* walls that move, and what they get */ \
   ROW(wrench_count, 12, "pressure force, viscous force, pressure torque, viscous torque") \
   ROW(frame_count, 12, "of the tank's frame: gravity less the acceleration of its origin, angular velocity, angular acceleration, origin") \
-  ROW(motion_friction, 18, "of an owner's walls: the law, 0 none, 1 viscous, 2 of the wall, 3 coefficient; then roughness, m, or coefficient") \
+  ROW(motion_velocity, 3, "where velocities and accelerations begin") \
+  ROW(motion_friction, 18, "the law of friction on its walls; then roughness, m, or coefficient") \
+  ROW(friction_none, 0, "laws") \
+  ROW(friction_viscous, 1, "likewise") \
+  ROW(friction_of_the_wall, 2, "likewise") \
+  ROW(friction_coefficient, 3, "likewise") \
   ROW(motion_count, 20, "of an owner: centre, velocity, angular velocity, acceleration, angular acceleration, velocity of a belt along the surface, friction") \
   ROW(pose_count, 12, "rotation Q, row by row, and displacement d: x' = Q x + d") \
   ROW(guard_owners, 2, "of how many owners of walls the guard tells apart what they take from one particle") \
