@@ -28,7 +28,7 @@ std::vector<WaterColumn> water_columns(const Layout& layout) {
   const Vector3d beside = std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
   const Vector3d along = (beside - up.dot(beside) * up).normalized(), across = up.cross(along);
   std::map<std::array<int, 2>, std::vector<std::pair<double, double>>> heights;  // of particles along `up`, and their levels
-  for (std::size_t i = 0; i < layout.particles.size(); ++i) {
+  for (std::size_t i = 0; i < layout.particles.size() - layout.beyond; ++i) {
     const Vector3d from_corner = layout.particles[i] - layout.domain.min;
     heights[{static_cast<int>(std::floor(along.dot(from_corner) / cell)), static_cast<int>(std::floor(across.dot(from_corner) / cell))}]
         .emplace_back(up.dot(layout.particles[i]), layout.levels[i]);

@@ -81,6 +81,7 @@ void Simulation::save(const std::string& path) const {
   snapshot.guard_hits = parts.guard_hits;
   snapshot.clocks = parts.recorder.clock_indices();
   snapshot.bodies = parts.saved_bodies();
+  snapshot.openings = parts.openings.save();
   snapshot.fluid = parts.solver->save();
   write_snapshot(path, snapshot);
 }
@@ -101,6 +102,7 @@ void Simulation::restore(const std::string& path) {
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;
   parts.restore_bodies(snapshot.bodies);
+  parts.openings.restore(snapshot.openings);
   parts.time_step = snapshot.time_step;
   parts.step = snapshot.step;
   parts.guard_hits = snapshot.guard_hits;

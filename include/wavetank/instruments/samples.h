@@ -50,6 +50,17 @@ struct EnergySample {
   double mass = 0;         ///< kg (2-D: kg/m)
 };
 
+/// Of what passes one opening.
+struct OpeningFlow {
+  double discharge = 0;  ///< m³/s (2-D: m²/s), into the water; negative: out of it
+  double volume = 0;     ///< m³ (2-D: m²), that has come in less what has left, at the fluid's density ρ₀
+};
+
+struct FlowSample {
+  double time = 0;                 ///< s
+  std::vector<OpeningFlow> flows;  ///< in the case's order of openings
+};
+
 /// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.
 struct Samples {
   std::vector<PressureSample> pressures;
@@ -57,6 +68,7 @@ struct Samples {
   std::vector<WrenchSample> wrenches;
   std::vector<EnergySample> energies;
   std::vector<PoseSample> poses;  ///< only where something moves
+  std::vector<FlowSample> flows;  ///< only of cases with openings
 };
 
 }  // namespace wavetank

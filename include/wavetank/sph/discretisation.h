@@ -21,6 +21,7 @@ struct Discretisation {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the device's coordinates, m: kernels never see large ones
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();   ///< the watchdog's box, m
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  Box tank;        ///< bounding box of the tank's walls, without the pockets behind openings, m
   Top top;         ///< of the tank
   double rim = 0;  ///< coordinate of the tank's highest point along the axis of its top, m
   double sound_period =
