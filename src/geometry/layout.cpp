@@ -408,6 +408,7 @@ void check_periods(const Case& checked, const Layout& layout) {
 std::vector<Part> add_openings(const Case& checked, const std::vector<Part>& parts, const Basin& basin,
                                const std::vector<FilledRegion>& regions, Layout& layout) {
   layout.openings = place_openings(checked, basin, layout.spacing, regions);
+  check_overlaps(layout.openings, layout.spacing);
   std::vector<Part> opened = opened_parts(checked, parts, layout);
   if (layout.openings.empty()) return opened;
   check_periods(checked, layout);

@@ -254,6 +254,11 @@ bool in_plane(const Opening& opening, const Vector3d& point, double spacing) {
   return std::abs(opening.normal.dot(point - opening.centre)) <= flat * spacing;
 }
 
+/// In the lattice; row −1 is before the opening.
+Vector3d in_row(const Opening& opening, const Opening::Column& column, int k, double spacing) {
+  return column.place - (k + 0.5) * spacing * opening.normal;
+}
+
 [[noreturn]] void throw_off_wall(const Opening& opening, double found, const std::string& whose, bool is_2d) {
   const std::string unit = is_2d ? " m" : " m²";
   throw Error(called(opening) + " does not lie in a flat wall of " + whose + ": of its " + describe(opening.area) + unit + ", " +
@@ -374,6 +379,21 @@ void add_pocket(TriangleMesh& mesh, const Opening& opening, double spacing) {
 
 }  // namespace
 
+void check_overlaps(const std::vector<Opening>& openings, double spacing) {
+  for (std::size_t o = 0; o < openings.size(); ++o)
+    for (std::size_t other = 0; other < openings.size(); ++other) {
+      if (other == o) continue;
+      const std::vector<Side> sides = sides_of_pocket(openings[other], spacing);
+      for (const Opening::Column& column : openings[o].columns)
+        for (int k = 0; k <= openings[o].rows; ++k) {
+          const Vector3d place = in_row(openings[o], column, k, spacing);
+          if (!std::all_of(sides.begin(), sides.end(), [&](const Side& side) { return side.normal.dot(place) < side.offset; })) continue;
+          throw Error(called(openings[o]) + " overlaps opening '" + openings[other].name + "', or the pockets of " +
+                      describe(openings[o].pocket) + " m behind them do, about " + describe(place) + " m; move one of them");
+        }
+    }
+}
+
 std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions) {
   std::vector<Opening> openings;
   for (const OpeningCase& given : checked.openings) openings.push_back(place_opening(given, checked, basin, spacing, regions));
@@ -381,14 +401,10 @@ std::vector<Opening> place_openings(const Case& checked, const Basin& basin, dou
 }
 
 void check_openings(const std::vector<Opening>& openings, const Basin& basin, const OpenSpace& closed, double spacing) {
-  const auto row = [&](const Opening& opening, const Opening::Column& column, int k) -> Vector3d {
-    return column.place - (k + 0.5) * spacing * opening.normal;
-  };
-  for (std::size_t o = 0; o < openings.size(); ++o) {
-    const Opening& opening = openings[o];
+  for (const Opening& opening : openings) {
     const std::string behind = called(opening) + " takes a pocket of " + describe(opening.pocket) + " m behind it, which ";
     for (const Opening::Column& column : opening.columns) {
-      const Vector3d front = row(opening, column, -1);
+      const Vector3d front = in_row(opening, column, -1, spacing);
       for (const Solid& solid : basin.solids)
         if (solid.contains(front))
           throw Error(called(opening) + " opens into body '" + solid.name +
@@ -397,7 +413,7 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
         throw Error(called(opening) + " opens where no water can come to, about " + describe(front) +
                     " m; its normal must point into the water");
       for (int k = 0; k <= opening.rows; ++k) {
-        const Vector3d place = row(opening, column, k);
+        const Vector3d place = in_row(opening, column, k, spacing);
         if (closed.reached(place, place))
           throw Error(behind + "meets the space that water can reach, about " + describe(place) +
                       " m; there must be nothing behind an "
@@ -405,12 +421,6 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
         for (std::size_t b = 0; b < basin.solids.size(); ++b)
           if (static_cast<int>(b) + 1 != opening.owner && basin.solids[b].contains(place))
             throw Error(behind + "meets body '" + basin.solids[b].name + "' about " + describe(place) + " m; move one of them");
-        for (std::size_t other = 0; other < o; ++other) {
-          const std::vector<Side> sides = sides_of_pocket(openings[other], spacing);
-          if (std::all_of(sides.begin(), sides.end(), [&](const Side& side) { return side.normal.dot(place) < side.offset; }))
-            throw Error(called(opening) + " overlaps opening '" + openings[other].name + "', or their pockets of " +
-                        describe(opening.pocket) + " m behind them do, about " + describe(place) + " m; move one of them");
-        }
       }
     }
   }
@@ -453,7 +463,7 @@ void add_water_beyond(const std::vector<FilledRegion>& regions, Layout& layout) 
     for (int k = 0; k < opening.rows; ++k)
       for (const Opening::Column& column : opening.columns) {
         if (!column.wet) continue;
-        const Vector3d place = column.place - (k + 0.5) * layout.spacing * opening.normal;
+        const Vector3d place = in_row(opening, column, k, layout.spacing);
         const WaterBefore::Particle* before = water.nearest(column.place, 3 * layout.spacing);
         layout.particles.push_back(place);
         layout.volumes.push_back(column.area * layout.spacing);

@@ -11,8 +11,11 @@ namespace wavetank {
 /// spacings, or under a level where gravity is along no axis.
 std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions);
 
-/// Throws Error for an opening that no water can come to from its front, for a pocket that meets the space that water can reach, a body or
-/// another pocket. `closed`: the space without openings.
+/// Throws Error for two openings that overlap, or whose pockets do.
+void check_overlaps(const std::vector<Opening>& openings, double spacing);
+
+/// Throws Error for an opening that no water can come to from its front, for a pocket that meets the space that water can reach or a body.
+/// `closed`: the space without openings.
 void check_openings(const std::vector<Opening>& openings, const Basin& basin, const OpenSpace& closed, double spacing);
 
 /// Cuts what of a wall lies in the openings and their pockets out of it, and adds the pockets' walls. Throws Error for an opening that lies

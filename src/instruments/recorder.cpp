@@ -48,7 +48,7 @@ PoseSample pose_sample(double time, const std::vector<double>& values, std::size
 }  // namespace
 
 Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world,
-                   std::function<std::vector<WallWrench>(Solver&)> wrenches, std::function<std::vector<OpeningFlow>()> flows)
+                   std::function<std::vector<WallWrench>(Solver&)> wrenches, std::function<std::vector<FlowAtOpening>()> flows)
     : world_(world), gravity_(scene.gravity), wrenches_(std::move(wrenches)), flows_(std::move(flows)) {
   add_pressures(scene, solver);
   add_levels(scene, layout, solver);
@@ -164,7 +164,7 @@ void Recorder::add_flows(const Case& scene) {
                           [this, any](Solver&) {
                             Values values;
                             if (!any) return values;
-                            for (const OpeningFlow& flow : flows_()) values.insert(values.end(), {flow.discharge, flow.volume});
+                            for (const FlowAtOpening& flow : flows_()) values.insert(values.end(), {flow.discharge, flow.volume});
                             return values;
                           },
                           [this, any](double time, const Values& values) {

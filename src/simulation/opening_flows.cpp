@@ -16,6 +16,53 @@ constexpr double fastest_of_sound = 0.1;  // of the speed of sound
 
 }  // namespace
 
+void WaterBefore::add(double time, Values values, double longest) {
+  times_.push_back(time);
+  values_.push_back(std::move(values));
+  std::size_t old = 0;  // all before the last that is older than what is asked for
+  while (old + 1 < times_.size() && times_[old + 1] < time - longest) ++old;
+  times_.erase(times_.begin(), times_.begin() + static_cast<std::ptrdiff_t>(old));
+  values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(old));
+}
+
+WaterBefore::Values WaterBefore::at(double time) const {
+  const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+  if (after == times_.begin()) return values_.front();
+  if (after == times_.end()) return values_.back();
+  const auto k = static_cast<std::size_t>(after - times_.begin());
+  const double share = (time - times_[k - 1]) / (times_[k] - times_[k - 1]);
+  Values values = values_[k - 1];
+  for (std::size_t c = 0; c < values.speed.size(); ++c) {
+    values.speed[c] += share * (values_[k].speed[c] - values.speed[c]);
+    values.pressure[c] += share * (values_[k].pressure[c] - values.pressure[c]);
+  }
+  return values;
+}
+
+void WaterBefore::save(std::vector<double>& to) const {
+  to.push_back(static_cast<double>(times_.size()));
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    to.push_back(times_[k]);
+    to.insert(to.end(), values_[k].speed.begin(), values_[k].speed.end());
+    to.insert(to.end(), values_[k].pressure.begin(), values_[k].pressure.end());
+  }
+}
+
+void WaterBefore::restore(std::vector<double>::const_iterator& from, std::size_t columns) {
+  const auto count = static_cast<std::size_t>(*from++);
+  times_.clear();
+  values_.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    times_.push_back(*from++);
+    Values values;
+    for (std::vector<double>* of : {&values.speed, &values.pressure}) {
+      of->assign(from, from + static_cast<std::ptrdiff_t>(columns));
+      from += static_cast<std::ptrdiff_t>(columns);
+    }
+    values_.push_back(std::move(values));
+  }
+}
+
 OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws)
     : cases_(scene.openings),
       openings_(layout.openings),
@@ -51,6 +98,7 @@ std::vector<ImposedZone> OpeningFlows::zones() const {
     zone.across = opening.across;
     zone.up = opening.up;
     zone.depth = opening.pocket;
+    zone.layers = opening.rows + 1;
     zone.cells = opening.cells;
     zone.cell_size = opening.cell_size;
     zone.first_edge = opening.first_edge;
@@ -102,47 +150,55 @@ void OpeningFlows::set_given_speeds(std::size_t o, double value, bool is_velocit
   for (std::size_t c = 0; c < profile.size(); ++c) columns.speed[c] = sign * mean * profile[c];
 }
 
-OpeningFlows::Columns OpeningFlows::columns_of(std::size_t o, const std::vector<PointValue>& before, double time, double time_step) {
+OpeningFlows::Columns OpeningFlows::columns_of(std::size_t o, const std::vector<PointValue>& before) const {
+  const Opening& opening = openings_[o];
+  const std::size_t count = opening.columns.size();
+  Columns columns{std::vector<double>(count), std::vector<double>(count), std::vector<bool>(count), std::vector<bool>(count)};
+  for (std::size_t c = 0; c < count; ++c) {
+    columns.pressure[c] = before[c].pressure;
+    columns.wet_before[c] = before[c].filling > least_filling * before[c].shepard;
+    columns.wet[c] = cases_[o].kind == OpeningKind::inlet ? opening.columns[c].wet : columns.wet_before[c];
+    if (columns.wet_before[c]) columns.speed[c] = before[c].velocity.dot(opening.normal);
+  }
+  return columns;
+}
+
+double OpeningFlows::law_at(std::size_t o, double time, double time_step) {
+  if (cases_[o].command) return commanded_discharge(o, time, time_step);
+  return laws_[o].quantity() ? laws_[o].at(time) : 0.0;
+}
+
+void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) const {
   const OpeningCase& given = cases_[o];
   const Opening& opening = openings_[o];
   const std::size_t count = opening.columns.size();
-  Columns columns{std::vector<double>(count), std::vector<double>(count), std::vector<bool>(count)};
-  std::vector<bool> wet_before(count);
+  if (given.kind == OpeningKind::inlet) {
+    set_given_speeds(o, value, laws_[o].quantity() == FlowQuantity::velocity, 1, columns);
+    return;
+  }
   double flow = 0, area = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    columns.pressure[c] = before[c].pressure;
-    wet_before[c] = before[c].filling > least_filling * before[c].shepard;
-    if (!wet_before[c]) continue;
-    columns.speed[c] = before[c].velocity.dot(opening.normal);
+    if (!columns.wet_before[c]) continue;
     flow += columns.speed[c] * opening.columns[c].area;
     area += opening.columns[c].area;
   }
-  const auto given_discharge = [&] { return given.command ? commanded_discharge(o, time, time_step) : laws_[o].at(time); };
-  if (given.kind == OpeningKind::inlet) {
-    for (std::size_t c = 0; c < count; ++c) columns.wet[c] = opening.columns[c].wet;
-    const bool is_velocity = !given.command && laws_[o].quantity() == FlowQuantity::velocity;
-    set_given_speeds(o, given_discharge(), is_velocity, 1, columns);
-    return columns;
-  }
-  columns.wet = wet_before;
   if (given.kind == OpeningKind::outlet && (given.command || laws_[o].quantity())) {
-    set_given_speeds(o, given_discharge(), false, -1, columns);
+    set_given_speeds(o, value, false, -1, columns);
   } else if (given.level || given.kind == OpeningKind::pressure) {
-    const double level = way_ * (given.level ? *given.level : laws_[o].at(time));
+    const double level = way_ * given.level.value_or(value);
     for (std::size_t c = 0; c < count; ++c) {
       const Vector3d& place = opening.columns[c].place;
       columns.pressure[c] = hydrostatic(level, place);
       const double head = level - height_of(place);
-      if (!wet_before[c] && head > 0)  // into the air, as from a reservoir
+      if (!columns.wet_before[c] && head > 0)  // into the air, as from a reservoir
         columns.speed[c] = std::min(std::sqrt(2 * gravity_ * head), fastest_of_sound * sound_speed_);
-      columns.wet[c] = wet_before[c] || head > 0;
+      columns.wet[c] = columns.wet_before[c] || head > 0;
     }
   }
   // what is left above the water goes with it
   const double mean = area > 0 ? std::min(flow / area, 0.0) : 0.0;
   for (std::size_t c = 0; c < count; ++c)
     if (!columns.wet[c]) columns.speed[c] = mean;
-  return columns;
 }
 
 void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming) {
@@ -178,19 +234,34 @@ void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
     const Opening& opening = openings_[o];
     const std::size_t count = opening.columns.size();
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    Columns columns = columns_of(o, {begin, begin + static_cast<std::ptrdiff_t>(count)}, time, time_step);
+    Columns columns = columns_of(o, {begin, begin + static_cast<std::ptrdiff_t>(count)});
     first += count;
-    if (single_)  // as the device has it
-      for (double& speed : columns.speed) speed = static_cast<float>(speed);
-    for (const int column : opening.column_of) {
-      zones[o].speed.push_back(columns.speed[column]);
-      zones[o].pressure.push_back(columns.pressure[column]);
+    const double value = law_at(o, time, time_step), to_plane = 0.5 * support_;
+    if (cases_[o].kind == OpeningKind::inlet)  // above its level there is air, and spray
+      for (const int column : opening.column_of) zones[o].is_free.push_back(columns.wet[column] ? 0 : 1);
+    WaterBefore& before = places_[o].before;
+    Columns last_row;
+    before.add(time, {columns.speed, columns.pressure}, (to_plane + opening.pocket) / sound_speed_);
+    for (int layer = 0; layer < zones[o].layers; ++layer) {
+      const double way = to_plane + (layer + 0.5) * opening.pocket / zones[o].layers;
+      WaterBefore::Values late = before.at(time + 0.5 * time_step - way / sound_speed_);
+      columns.speed = std::move(late.speed);
+      columns.pressure = std::move(late.pressure);
+      apply_law(o, value, columns);
+      if (single_)  // as the device has it
+        for (double& speed : columns.speed) speed = static_cast<float>(speed);
+      for (const int column : opening.column_of) {
+        zones[o].speed.push_back(columns.speed[column]);
+        zones[o].pressure.push_back(columns.pressure[column]);
+      }
+      if (layer == opening.rows - 1) last_row = columns;
+      if (layer > 0) continue;
+      states_[o].discharge = 0;
+      for (std::size_t c = 0; c < count; ++c)
+        if (columns.wet[c]) states_[o].discharge += columns.speed[c] * opening.columns[c].area;
     }
-    states_[o].discharge = 0;
-    for (std::size_t c = 0; c < count; ++c)
-      if (columns.wet[c]) states_[o].discharge += columns.speed[c] * opening.columns[c].area;
     const std::size_t already = coming.position.size();
-    let_in(o, columns, time_step, coming);
+    let_in(o, last_row, time_step, coming);
     states_[o].particles_in += coming.position.size() - already;
     for (std::size_t k = already; k < coming.position.size(); ++k) coming_to_.push_back(o);
   }
@@ -238,6 +309,7 @@ std::vector<char> OpeningFlows::save() const {
     const Place& place = places_[o];
     const OpeningState& state = states_[o];
     values.insert(values.end(), place.phase.begin(), place.phase.end());
+    place.before.save(values);
     values.insert(values.end(), {place.commanded, place.wanted, place.command_time, state.discharge, state.volume, state.mass_in,
                                  state.mass_out, static_cast<double>(state.particles_in), static_cast<double>(state.particles_out)});
   }
@@ -247,14 +319,14 @@ std::vector<char> OpeningFlows::save() const {
 }
 
 void OpeningFlows::restore(const std::vector<char>& bytes) {
-  if (bytes.size() != save().size()) throw Error("the snapshot's openings are not those of this case.");
   std::vector<double> values(bytes.size() / sizeof(double));
   if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-  auto next = values.begin();
+  auto next = values.cbegin();
   for (std::size_t o = 0; o < openings_.size(); ++o) {
     Place& place = places_[o];
     OpeningState& state = states_[o];
     for (double& phase : place.phase) phase = *next++;
+    place.before.restore(next, place.phase.size());
     for (double* value :
          {&place.commanded, &place.wanted, &place.command_time, &state.discharge, &state.volume, &state.mass_in, &state.mass_out})
       *value = *next++;

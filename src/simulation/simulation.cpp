@@ -100,7 +100,7 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
       recorder(
           scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); },
           [this] {
-            std::vector<OpeningFlow> flows;
+            std::vector<FlowAtOpening> flows;
             for (const OpeningState& state : openings.states()) flows.push_back({state.discharge, state.volume});
             return flows;
           }) {

@@ -26,9 +26,9 @@ class Zones {
     };
     std::size_t table = zones.size() * field::zone_count;
     for (const ImposedZone& zone : zones) {
-      const std::size_t cells = static_cast<std::size_t>(zone.cells[0]) * zone.cells[1];
+      const std::size_t cells = static_cast<std::size_t>(zone.cells[0]) * zone.cells[1] * zone.layers;
       if (!zone.speed.empty() && (zone.speed.size() != cells || zone.pressure.size() != cells))
-        throw Error("an imposed zone of " + std::to_string(cells) + " cells is given " + std::to_string(zone.speed.size()) +
+        throw Error("an imposed zone of " + std::to_string(cells) + " cells in all layers is given " + std::to_string(zone.speed.size()) +
                     " speeds and " + std::to_string(zone.pressure.size()) + " pressures");
       add_vector(zone.centre - origin);
       add_vector(zone.normal);
@@ -40,6 +40,7 @@ class Zones {
         add(zone.cells[k]);
       }
       add(zone.depth);
+      add(zone.layers);
       add(zone.speed.empty() ? -1.0 : static_cast<double>(table));
       if (!zone.speed.empty()) table += cells * field::zone_cell_count;
     }
@@ -51,6 +52,8 @@ class Zones {
         add(zone.speed[cell]);
         add(pressure);
         add(compression_at(pressure / stiffness, scene));
+        const std::size_t in_front = cell % (static_cast<std::size_t>(zone.cells[0]) * zone.cells[1]);
+        add(in_front < zone.is_free.size() && zone.is_free[in_front] != 0 ? 0.0 : 1.0);
       }
     count_ = static_cast<int>(zones.size());
     values_.set(device, values);

@@ -20,7 +20,7 @@ class Recorder {
   /// instant, of each opening.
   Recorder(const Case& settled_case, const Layout& layout, const Solver& solver, const RigidWorld& world,
            std::function<std::vector<WallWrench>(Solver&)> wrenches = &Solver::wrenches,
-           std::function<std::vector<OpeningFlow>()> flows = {});
+           std::function<std::vector<FlowAtOpening>()> flows = {});
 
   /// The samples at time 0.
   void start(Solver& solver);
@@ -64,7 +64,7 @@ class Recorder {
   const RigidWorld& world_;
   Vector3d gravity_;
   std::function<std::vector<WallWrench>(Solver&)> wrenches_;
-  std::function<std::vector<OpeningFlow>()> flows_;
+  std::function<std::vector<FlowAtOpening>()> flows_;
   std::shared_ptr<PointSet> probes_;
   std::vector<Vector3d> probe_places_;     ///< as the case's geometry has them, m
   std::vector<std::size_t> probe_owners_;  ///< the body that each moves with; 0 = none

@@ -51,14 +51,14 @@ struct EnergySample {
 };
 
 /// Of what passes one opening.
-struct OpeningFlow {
+struct FlowAtOpening {
   double discharge = 0;  ///< m³/s (2-D: m²/s), into the water; negative: out of it
   double volume = 0;     ///< m³ (2-D: m²), that has come in less what has left, at the fluid's density ρ₀
 };
 
 struct FlowSample {
-  double time = 0;                 ///< s
-  std::vector<OpeningFlow> flows;  ///< in the case's order of openings
+  double time = 0;                   ///< s
+  std::vector<FlowAtOpening> flows;  ///< in the case's order of openings
 };
 
 /// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.

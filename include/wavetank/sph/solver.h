@@ -175,8 +175,11 @@ struct ImposedZone {
   std::array<int, 2> cells{1, 1};                     ///< across and up
   std::array<double, 2> cell_size{0, 0};              ///< m; across it may be 0 in 2-D
   std::array<double, 2> first_edge{0, 0};             ///< m from the centre, of the first cell's outer edges
-  std::vector<double> speed;     ///< m/s along the normal, of each cell, across fastest; none: what particles there have is kept
+  int layers = 1;                                     ///< into which the depth is divided
+  std::vector<double>
+      speed;  ///< m/s along the normal, by layer from the front, then cell, across fastest; none: what particles have is kept
   std::vector<double> pressure;  ///< Pa, gauge, likewise
+  std::vector<char> is_free;     ///< of each cell of the front: what is behind it is no part of the zone; empty: none is so
 };
 
 /// What a sweep finds of the particles, in the order of FluidState.

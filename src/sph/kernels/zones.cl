@@ -28,8 +28,14 @@ INLINE in_zone_t zone_at(int zone_count, __global const real* zones, real x, rea
       cell[axis] = cell_along(dx * along[0] + dy * along[1] + dz * along[2] - along[3], along[4]);
     }
     if (cell[0] == NO_CELL || cell[1] == NO_CELL) continue;
+    const int across = (int)zone[ZONE_ACROSS + 4], up = (int)zone[ZONE_UP + 4], layers = (int)zone[ZONE_LAYERS];
+    const int layer = min((int)(-before / zone[ZONE_DEPTH] * zone[ZONE_LAYERS]), layers - 1);
+    if (zone[ZONE_TABLE] >= R(0.0)) found.values = (int)zone[ZONE_TABLE] + ZONE_CELL_COUNT * ((layer * up + cell[1]) * across + cell[0]);
+    if (found.values >= 0 && zones[found.values + 3] < R(0.5)) {
+      found.values = NO_CELL;
+      continue;
+    }
     found.zone = k;
-    if (zone[ZONE_TABLE] >= R(0.0)) found.values = (int)zone[ZONE_TABLE] + ZONE_CELL_COUNT * (cell[1] * (int)zone[ZONE_ACROSS + 4] + cell[0]);
     return found;
   }
   return found;

@@ -79,9 +79,10 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(zone_across, 6, "vector in cells/m, of the first cell's edge in cells from the centre, number of cells") \
   ROW(zone_up, 11, "likewise") \
   ROW(zone_depth, 16, "m, behind the front") \
-  ROW(zone_table, 17, "where its cells' values begin, or −1") \
-  ROW(zone_count, 18, "values of a zone") \
-  ROW(zone_cell_count, 3, "values of a cell: speed along the normal, pressure, compression") \
+  ROW(zone_layers, 17, "into which the depth is divided") \
+  ROW(zone_table, 18, "where its cells' values begin, or −1") \
+  ROW(zone_count, 19, "values of a zone") \
+  ROW(zone_cell_count, 4, "values of a cell: speed along the normal, pressure, compression, 1 if it is of the zone") \
   ROW(energy_count, 7, "kinetic, potential, of compression, mass, and three moments of mass") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")
