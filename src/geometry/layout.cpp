@@ -413,9 +413,10 @@ std::vector<Part> add_openings(const Case& checked, const std::vector<Part>& par
   if (layout.openings.empty()) return opened;
   check_periods(checked, layout);
   OpenSpace closed(layout.domain, checked.dimensions, layout.spacing, *basin.grid, Walls::all, basin.top);
-  closed.flood(layout.particles);
+  closed.flood(layout.particles.empty() ? fronts_of(layout.openings, layout.spacing) : layout.particles);
   check_openings(layout.openings, basin, closed, layout.spacing);
   add_water_beyond(regions, layout);
+  if (layout.particles.empty()) throw Error("there is no water at the start, neither by fluid/fill nor behind an opening");
   return opened;
 }
 
@@ -438,7 +439,8 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   check_overlap(regions, layout.spacing);
   tell_of_parted_water(checked, basin, layout.spacing, regions);
   add_particles(regions, layout);
-  if (layout.particles.empty()) throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
+  if (layout.particles.empty() && !checked.fluid.fill.empty())
+    throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
 
   layout.lid = make_lid(basin, layout.spacing, regions);
   layout.up = hydrostatic_direction(checked, basin, layout);

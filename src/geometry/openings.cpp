@@ -426,6 +426,13 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
   }
 }
 
+std::vector<Vector3d> fronts_of(const std::vector<Opening>& openings, double spacing) {
+  std::vector<Vector3d> fronts;
+  for (const Opening& opening : openings)
+    for (const Opening::Column& column : opening.columns) fronts.push_back(in_row(opening, column, -1, spacing));
+  return fronts;
+}
+
 void open_outline(Outline& outline, const std::vector<Opening>& openings, double spacing, const std::string& whose) {
   for (const Opening& opening : openings) {
     const double removed = cut_outline(outline, opening, spacing);

@@ -18,6 +18,9 @@ void check_overlaps(const std::vector<Opening>& openings, double spacing);
 /// `closed`: the space without openings.
 void check_openings(const std::vector<Opening>& openings, const Basin& basin, const OpenSpace& closed, double spacing);
 
+/// Where water from them comes out, half a spacing before each column, m.
+std::vector<Vector3d> fronts_of(const std::vector<Opening>& openings, double spacing);
+
 /// Cuts what of a wall lies in the openings and their pockets out of it, and adds the pockets' walls. Throws Error for an opening that lies
 /// in no plane of the wall; `whose` is for the message.
 void open_outline(Outline& outline, const std::vector<Opening>& openings, double spacing, const std::string& whose);

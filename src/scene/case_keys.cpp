@@ -60,7 +60,7 @@ Section<FluidCase> fluid_section() {
       .key("particles", &FluidCase::particles, count_if_given(between(1, 1e9)), "",
            "About so many fluid particles: the spacing follows from the fluid's volume.")
       .required = true;
-  section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions.").required =
+  section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions; [] where all of it comes in by openings.").required =
       true;
   Section<InitialCase> initial;
   initial.key("u", &InitialCase::u, expression(Expression::Of::place), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
@@ -75,9 +75,6 @@ Section<FluidCase> fluid_section() {
   section.key("current", &FluidCase::current, vector_in_plane(), "m/s",
               "Velocity of all water at the start, beside what `initial` gives: a flume begins with its current.");
   section.exactly_one_of({{"spacing"}, {"particles"}});
-  section.rule([](const FluidCase& fluid, const Setting& map, const std::string& path, const Context&) {
-    if (fluid.fill.empty()) refuse(*map.find("fill"), {join_path(path, "fill"), ""}, "a list of at least one region");
-  });
   return section;
 }
 

@@ -150,6 +150,8 @@ void check_case(const Case& read, const Setting& root) {
     throw Error(nearest_setting(root, "gravity").place.describe() +
                 ": fluid/sound_speed is auto, which needs a gravity to expect a speed from; give fluid/sound_speed as a number (m/s)");
   }
+  if (read.fluid.fill.empty() && read.openings.empty())
+    refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);
   check_periodic(read, root);
   check_levels(read, root);

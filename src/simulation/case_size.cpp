@@ -145,6 +145,7 @@ CaseSize size_of(const Case& scene, const Layout& layout, const RigidWorld& worl
 }
 
 void tell_of_shallow_water(const Layout& layout) {
+  if (layout.particles.size() == layout.beyond) return;  // all of it comes later
   const double depth = least_depth(layout);
   if (!(depth < (fewest_over_depth - 0.01) * layout.spacing)) return;
   log(LogLevel::warning, "the water is only " + number(depth / layout.spacing) + " spacings deep (" + number(depth) +

@@ -12,6 +12,9 @@ double expected_speed(const Case& checked, const Layout& layout) {
   const double floor = lowest_of(layout.domain, layout.up);
   double surface = floor;
   for (const double level : layout.levels) surface = std::max(surface, level);
+  for (const Opening& opening : layout.openings)
+    for (const Opening::Column& column : opening.columns)
+      if (column.wet) surface = std::max(surface, layout.up.dot(column.place));
   const double drop = std::max(surface - floor, layout.spacing);
   return std::sqrt(2.0 * checked.gravity.norm() * drop);
 }

@@ -49,7 +49,7 @@ struct FluidCase {
   std::optional<double> sound_speed;     ///< m/s; none = automatic: 10 × the greatest expected speed
   std::optional<double> spacing;         ///< m; exactly one of spacing and particles is given
   std::optional<std::size_t> particles;  ///< approximate number of fluid particles
-  std::vector<FillRegion> fill;          ///< at least one
+  std::vector<FillRegion> fill;          ///< at least one where there are no openings
   InitialCase initial;
   Vector3d current = Vector3d::Zero();  ///< m/s, of all water at the start, beside what `initial` says
 };

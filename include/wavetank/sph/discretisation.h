@@ -33,7 +33,8 @@ struct Discretisation {
   double least_time_step = 0;  ///< a Δt below this has collapsed, s
 };
 
-/// The greatest speed that a case is expected to reach: of a free fall from the fluid's highest level to the tank's floor, m/s.
+/// The greatest speed that a case is expected to reach: of a free fall to the tank's floor from the fluid's highest level, or
+/// from the highest place of an opening that has water behind it, m/s.
 double expected_speed(const Case& checked, const Layout& layout);
 
 /// The case with its automatic values settled: sound speed, spacing, support. `fastest_wall`: the greatest speed expected of any wall, m/s.
