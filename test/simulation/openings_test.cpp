@@ -151,6 +151,68 @@ TEST_F(Openings, IdsNeverRepeat) {
   EXPECT_GT(seen.size(), 500u);
 }
 
+TEST_F(Openings, FillAnEmptyTankByWhatIsCommanded) {
+  Case scene = box_case(Vector3d(0.6, 0, 0.5), 0.1, 0.02);
+  scene.duration = 2;
+  scene.fluid.fill.clear();
+  scene.openings = {opening("tap", OpeningKind::inlet, Vector3d(0, 0, 0.2), Vector3d::UnitX(), 0.08)};
+  scene.openings[0].command = FlowCommandCase{0.05, 0.1, 0.4};
+  Simulation simulation(scene);
+  const auto run_until = [&](double time) {
+    while (simulation.state().time < time) simulation.advance();
+  };
+  run_until(0.1);
+  EXPECT_EQ(simulation.openings()[0].discharge, 0);
+  simulation.command_discharge(0, 0.08);
+  run_until(0.3);
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.02, 1e-3);  // 0.1 m²/s² for 0.2 s
+  simulation.command_discharge(0, 0.08);
+  run_until(0.65);
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.05, 1e-6);  // the limit
+  run_until(1.3);
+  EXPECT_EQ(simulation.openings()[0].discharge, 0);  // nobody asked for more
+  // 0.05²/(2·0.1) while it rises and again while it falls, and the rest of 0.6 s
+  EXPECT_NEAR(simulation.openings()[0].volume, 0.05 * 0.1 + 0.0125 * 2, 4 * 0.02 * 0.02);
+  EXPECT_NEAR(simulation.openings()[0].mass_in, 1000 * simulation.openings()[0].volume, 1e-6);
+  EXPECT_NE(error_of([&] { simulation.command_discharge(0, -1); }).find("was commanded a discharge of -1"), std::string::npos);
+  EXPECT_NO_THROW(simulation.command_discharge(0, 1e4));  // which is limited
+}
+
+TEST_F(Openings, FasterThanATenthOfTheSoundAreRefused) {
+  Case scene = channel("3*t");
+  scene.fluid.sound_speed = 28;
+  EXPECT_NE(error_of([&] {
+              Simulation simulation(scene);
+            }).find("opening 'start': its water moves at up to 12 m/s; it must be at most a tenth of the speed of sound, 2.8 m/s"),
+            std::string::npos);
+  scene = channel("0.4 - t");
+  EXPECT_NE(error_of([&] { Simulation simulation(scene); }).find("opening 'start': its velocity at t = 0.404 s is -0.004"),
+            std::string::npos);
+}
+
+TEST_F(Openings, FollowARecord) {
+  Case scene = channel("");
+  FlowRecordCase record;
+  record.file = path("flow.csv");
+  write(record.file, "time,discharge\n0,0.1\n0.2,0.2\n0.4,0.2\n");
+  scene.openings[0].record = record;
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.1) simulation.advance();
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.15, 2e-3);
+  write(record.file, "time,discharge\n0,0.1\n0.2,0.2\n0.2,0.2\n");
+  EXPECT_NE(error_of([&] { Simulation again(scene); }).find("line 4, column 'time': the time 0.2 s does not come after 0.2 s"),
+            std::string::npos);
+}
+
+TEST_F(Openings, OfAFreeOutletLetNothingIn) {
+  Case scene = tank_with_outlet();
+  scene.openings[0].level.reset();
+  scene.fluid.current = Vector3d(-0.1, 0, 0);
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.5) simulation.advance();
+  EXPECT_EQ(simulation.openings()[0].particles_in, 0u);
+}
+
 /// Of sound in a full duct, at a probe between where it starts and the far end: its pressures at the probe.
 std::vector<double> pulse(double length, bool open) {
   constexpr double height = 0.2, sound_speed = 20, speed = 0.02, until = 0.14;

@@ -1,9 +1,11 @@
 // jet_on_plate: a plane jet on a plate (particle shifting paper, §6), its pressures on the plate against free-streamline theory.
 //   jet_on_plate WORD=VALUE...
 // Words: n (particles over the jet's thickness H = 1 m, 20), angle (of the jet with the plate, degrees, 90), end (t U/H, 20), begin (of the
-// mean, 10), sound (c₀/U, 11), distance (of the nozzle from the plate along the jet, H, 2), left and right (outlets from the stagnation
-// point, H, 4), scheme, shifting, tensile, integrator and density_diffusion. Prints the mean p* at points of the plate beside the exact
-// one, the mean and scatter at the stagnation point, the L2 of the difference, and the account of mass.
+// mean, 10), courant (0.5), damping (acoustic, with symplectic alone, 0.5:
+// sound between plate and nozzle rings for long without), sound (c₀/U, 11), distance (of the nozzle from the plate along
+// the jet, H, 2), left and right (outlets from the stagnation point, H, 4), scheme, shifting, tensile, integrator and density_diffusion.
+// Prints the mean p* at points of the plate beside the exact one, the mean and scatter at the stagnation point, the L2 of the difference,
+// and the account of mass.
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -77,19 +79,16 @@ int run(const Words& words) {
   scene.numerics.packing.iterations = 0;
   scene.numerics.scheme = Scheme::riemann_parshikov;
   scene.numerics.shifting = Shifting::michel;
-  scene.numerics.integrator = Integrator::runge_kutta_4;
-  scene.numerics.courant = 0.75;
   choose(words, "scheme", scene.numerics.scheme);
   choose(words, "shifting", scene.numerics.shifting);
   choose(words, "tensile", scene.numerics.tensile);
   choose(words, "integrator", scene.numerics.integrator);
-  if (scene.numerics.integrator == Integrator::symplectic) scene.numerics.courant = 0.5;
   const bool riemann = scene.numerics.scheme != Scheme::delta_sph;
   scene.numerics.density_diffusion = riemann ? DensityDiffusion::none : DensityDiffusion::antuono;
   scene.numerics.artificial_viscosity = riemann ? 0 : 0.01;
   scene.numerics.negative_pressure = NegativePressure::allowed;
   scene.numerics.courant = number(words, "courant", scene.numerics.courant);
-  if (number(words, "clamped", 0) > 0) scene.numerics.negative_pressure = NegativePressure::clamped;
+  scene.numerics.acoustic_damping = number(words, "damping", scene.numerics.integrator == Integrator::symplectic ? 0.5 : 0);
   choose(words, "density_diffusion", scene.numerics.density_diffusion);
   scene.numerics.expected_speed = 1;
 
