@@ -19,6 +19,8 @@ class FlowLaw {
   std::optional<FlowQuantity> quantity() const { return quantity_; }
   /// m³/s (2-D: m²/s), m/s or m. Throws Error where it is not finite, or a discharge or velocity is negative.
   double at(double time) const;
+  /// The same whatever it is; only where there is a quantity.
+  double unchecked_at(double time) const { return value_(time); }
 
  private:
   std::string name_;
