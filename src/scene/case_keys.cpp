@@ -60,8 +60,10 @@ Section<FluidCase> fluid_section() {
       .key("particles", &FluidCase::particles, count_if_given(between(1, 1e9)), "",
            "About so many fluid particles: the spacing follows from the fluid's volume.")
       .required = true;
-  section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions; [] where all of it comes in by openings.").required =
-      true;
+  section
+      .key("fill", &FluidCase::fill, list_of(fill_section()), "",
+           "Where the water is at the start: one or more regions; [] where all of it comes in by openings.")
+      .required = true;
   Section<InitialCase> initial;
   initial.key("u", &InitialCase::u, expression(Expression::Of::place), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
   initial.key("v", &InitialCase::v, expression(Expression::Of::place), "m/s", "Along y; not used in 2-D.");
