@@ -10,14 +10,18 @@ namespace wavetank {
 
 struct Expression::Parser {
   mu::Parser parser;
-  double x = 0, y = 0, z = 0;
+  double x = 0, y = 0, z = 0, t = 0;
 };
 
-Expression::Expression(const std::string& text) : parser_(std::make_unique<Parser>()) {
+Expression::Expression(const std::string& text, Of of) : parser_(std::make_unique<Parser>()) {
   try {
-    parser_->parser.DefineVar("x", &parser_->x);
-    parser_->parser.DefineVar("y", &parser_->y);
-    parser_->parser.DefineVar("z", &parser_->z);
+    if (of == Of::time) {
+      parser_->parser.DefineVar("t", &parser_->t);
+    } else {
+      parser_->parser.DefineVar("x", &parser_->x);
+      parser_->parser.DefineVar("y", &parser_->y);
+      parser_->parser.DefineVar("z", &parser_->z);
+    }
     parser_->parser.DefineConst("pi", std::acos(-1.0));
     parser_->parser.SetExpr(text);
     parser_->parser.Eval();
@@ -27,7 +31,7 @@ Expression::Expression(const std::string& text) : parser_(std::make_unique<Parse
         at >= 0 && at < static_cast<int>(text.size()) ? "at its character " + std::to_string(at + 1) : std::string("at its end");
     std::string what = failure.GetMsg();
     what = what.substr(0, what.find(" found at position"));  // which counts from 0
-    throw Error("\"" + text + "\" is no expression of x, y and z: " + what + ", " + place);
+    throw Error("\"" + text + "\" is no expression of " + (of == Of::time ? "t" : "x, y and z") + ": " + what + ", " + place);
   }
 }
 
@@ -39,6 +43,11 @@ double Expression::at(const Eigen::Vector3d& place) const {
   parser_->x = place.x();
   parser_->y = place.y();
   parser_->z = place.z();
+  return parser_->parser.Eval();
+}
+
+double Expression::at(double time) const {
+  parser_->t = time;
   return parser_->parser.Eval();
 }
 

@@ -9,6 +9,7 @@
 #include "intruding_walls.h"
 #include "mesh_scale.h"
 #include "mesh_topology.h"
+#include "openings.h"
 #include "polygon.h"
 #include "wall_facing.h"
 #include "wavetank/common/error.h"
@@ -338,7 +339,8 @@ void check_sizes(const Case& checked, const std::vector<Part>& parts, const Layo
 void add_walls(const std::vector<Part>& parts, const std::vector<int>& assemblies, const OpenSpace& open, const TriangleGrid& grid,
                const Case& checked, Layout& layout) {
   const Vector3d margin = Vector3d::Constant(2 * layout.spacing);
-  const Box near{layout.domain.min - margin, layout.domain.max + margin};
+  const Box reach = with_pockets(layout.domain, layout.openings, checked.dimensions);
+  const Box near{reach.min - margin, reach.max + margin};
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (!layout.moving[p]) {
       add_walls_of(parts[p], static_cast<int>(p), open, grid, checked, near, layout);
@@ -367,6 +369,57 @@ void open_periodic_ends(const std::array<bool, 3>& periodic, Layout& layout) {
   }
 }
 
+std::string name_of_part(const Case& checked, std::size_t part) {
+  return part == 0 ? "the tank" : "body '" + checked.bodies[part - 1].name + "'";
+}
+
+/// The parts with the holes that openings make in them.
+std::vector<Part> opened_parts(const Case& checked, const std::vector<Part>& parts, const Layout& layout) {
+  std::vector<Part> opened = parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<Opening> of_part;
+    for (const Opening& opening : layout.openings)
+      if (opening.owner == static_cast<int>(p)) of_part.push_back(opening);
+    if (of_part.empty()) continue;
+    const std::string whose = name_of_part(checked, p);
+    if (checked.dimensions == 2) {
+      open_outline(opened[p].outline, of_part, layout.spacing, whose);
+      continue;
+    }
+    if (!parts[p].surfaces.empty())
+      throw Error("opening '" + of_part.front().name + "' is in " + whose +
+                  ", whose mesh has solids that touch or overlap; openings are for bodies of one closed surface");
+    open_mesh(opened[p].mesh, of_part, layout.spacing, whose);
+  }
+  return opened;
+}
+
+void check_periods(const Case& checked, const Layout& layout) {
+  const Box reach = with_pockets(layout.domain, layout.openings, checked.dimensions);
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool grown = reach.min[axis] < layout.domain.min[axis] || reach.max[axis] > layout.domain.max[axis];
+    if (checked.tank.periodic[axis] && grown)
+      throw Error(std::string("an opening's pocket reaches beyond the tank along ") + "xyz"[axis] +
+                  ", along which tank/periodic repeats it; put openings elsewhere, or leave that axis out of tank/periodic");
+  }
+}
+
+/// The case's openings, the water beyond them, and the parts with holes.
+std::vector<Part> add_openings(const Case& checked, const std::vector<Part>& parts, const Basin& basin,
+                               const std::vector<FilledRegion>& regions, Layout& layout) {
+  layout.openings = place_openings(checked, basin, layout.spacing, regions);
+  check_overlaps(layout.openings, layout.spacing);
+  std::vector<Part> opened = opened_parts(checked, parts, layout);
+  if (layout.openings.empty()) return opened;
+  check_periods(checked, layout);
+  OpenSpace closed(layout.domain, checked.dimensions, layout.spacing, *basin.grid, Walls::all, basin.top);
+  closed.flood(layout.particles.empty() ? fronts_of(layout.openings, layout.spacing) : layout.particles);
+  check_openings(layout.openings, basin, closed, layout.spacing);
+  add_water_beyond(regions, layout);
+  if (layout.particles.empty()) throw Error("there is no water at the start, neither by fluid/fill nor behind an opening");
+  return opened;
+}
+
 /// Leaves the parts their meshes.
 Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   Layout layout;
@@ -386,24 +439,28 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   check_overlap(regions, layout.spacing);
   tell_of_parted_water(checked, basin, layout.spacing, regions);
   add_particles(regions, layout);
-  if (layout.particles.empty()) throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
+  if (layout.particles.empty() && !checked.fluid.fill.empty())
+    throw Error("fluid/fill has no room for a single particle of spacing " + describe(layout.spacing) + " m");
+
+  layout.lid = make_lid(basin, layout.spacing, regions);
+  layout.up = hydrostatic_direction(checked, basin, layout);
+  find_levels(checked, regions, layout);
+  const std::vector<Part> opened = add_openings(checked, parts, basin, regions, layout);
 
   const std::vector<int> assemblies = rigid_assemblies(checked);
   std::vector<bool> standing = layout.moving;
   standing.flip();
   for (std::size_t p = 1; p < parts.size(); ++p) standing[p] = standing[p] || assemblies[p] == 0;
-  const TriangleGrid standing_grid = make_grid(parts, checked.dimensions, layout.spacing, standing);
-  OpenSpace open(layout.domain, checked.dimensions, layout.spacing, standing_grid, Walls::all, basin.top);
+  const TriangleGrid standing_grid = make_grid(opened, checked.dimensions, layout.spacing, standing);
+  OpenSpace open(with_pockets(layout.domain, layout.openings, checked.dimensions), checked.dimensions, layout.spacing, standing_grid,
+                 Walls::all, basin.top);
   open.flood(layout.particles);
   layout.open_top = open.open_top();
-  add_walls(parts, assemblies, open, standing_grid, checked, layout);
+  add_walls(opened, assemblies, open, standing_grid, checked, layout);
   open_periodic_ends(checked.tank.periodic, layout);
   std::vector<TriangleMesh> meshes;
   for (const Part& part : parts) meshes.push_back(part.mesh);
   find_intruding(checked, meshes, assemblies, layout);
-  layout.lid = make_lid(basin, layout.spacing, regions);
-  layout.up = hydrostatic_direction(checked, basin, layout);
-  find_levels(checked, regions, layout);
   check_instruments(checked.instruments, basin, open, layout.spacing);
   layout.disc_normals = disc_normals(checked.instruments, basin, layout.spacing);
   return layout;

@@ -88,6 +88,7 @@ void check_overlap(const std::vector<FilledRegion>& regions, double spacing) {
 
 std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std::vector<FilledRegion>& regions) {
   std::vector<WallElement> lid;
+  if (regions.empty()) return lid;
   const ParticleFinder finder(regions, spacing);
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const FilledRegion& region = regions[r];

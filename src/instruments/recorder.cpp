@@ -69,13 +69,14 @@ std::vector<Vector3d> points_of_disc(const PressureProbeCase& probe, const Vecto
 }  // namespace
 
 Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world,
-                   std::function<std::vector<WallWrench>(Solver&)> wrenches)
-    : world_(world), gravity_(scene.gravity), wrenches_(std::move(wrenches)) {
+                   std::function<std::vector<WallWrench>(Solver&)> wrenches, std::function<std::vector<FlowAtOpening>()> flows)
+    : world_(world), gravity_(scene.gravity), wrenches_(std::move(wrenches)), flows_(std::move(flows)) {
   add_pressures(scene, layout, solver);
   add_levels(scene, layout, solver);
   add_wrenches(scene);
   add_energies(scene);
   add_poses(scene);
+  add_flows(scene);
 }
 
 void Recorder::add_pressures(const Case& scene, const Layout& layout, const Solver& solver) {
@@ -185,6 +186,24 @@ void Recorder::add_poses(const Case& scene) {
                           [this, any](Solver&) { return any ? values_of(world_) : Values(); },
                           [this, any](double time, const Values& values) {
                             if (any) samples_.poses.push_back(pose_sample(time, values, world_.count()));
+                          }});
+}
+
+void Recorder::add_flows(const Case& scene) {
+  const bool any = flows_ && !scene.openings.empty();
+  instruments_.push_back({SampleClock(scene.instruments.flow_rate.value_or(scene.instruments.rate)),
+                          [this, any](Solver&) {
+                            Values values;
+                            if (!any) return values;
+                            for (const FlowAtOpening& flow : flows_()) values.insert(values.end(), {flow.discharge, flow.volume});
+                            return values;
+                          },
+                          [this, any](double time, const Values& values) {
+                            if (!any) return;
+                            FlowSample sample;
+                            sample.time = time;
+                            for (std::size_t k = 0; k + 2 <= values.size(); k += 2) sample.flows.push_back({values[k], values[k + 1]});
+                            samples_.flows.push_back(std::move(sample));
                           }});
 }
 

@@ -1,5 +1,7 @@
 #include "wavetank/node/body_inbox.h"
 
+#include <cmath>
+
 #include "wavetank/common/error.h"
 #include "wavetank/node/geometry_messages.h"
 
@@ -36,6 +38,12 @@ AskedVelocity read_velocity(const geometry_msgs::Twist& message) {
   return asked;
 }
 
+double read_discharge(const std_msgs::Float64& message) {
+  if (!std::isfinite(message.data) || message.data < 0)
+    throw Error("a discharge that is negative, NaN or infinite is ignored: the one before stays");
+  return message.data;
+}
+
 OutsideWrench outside_wrench(const AskedWrench& asked, const Quaterniond& tank, double time, double timeout) {
   OutsideWrench wrench;
   wrench.turns_with_body = asked.axes == AskedWrench::Axes::body;
@@ -54,6 +62,11 @@ void BodyInbox::put(std::size_t owner, const AskedWrench& wrench) {
 void BodyInbox::put(std::size_t owner, const AskedVelocity& velocity) {
   const std::lock_guard<std::mutex> lock(mutex_);
   contents_.velocities[owner] = velocity;
+}
+
+void BodyInbox::put_discharge(std::size_t opening, double discharge) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  contents_.discharges[opening] = discharge;
 }
 
 BodyInbox::Contents BodyInbox::take() {

@@ -39,19 +39,25 @@ BodyInputs::BodyInputs(ros::NodeHandle& private_handle, const Case& checked, dou
     const Motion motion = owner == 0 ? checked.tank.motion : checked.bodies[owner - 1].motion;
     if (motion == Motion::free)
       listen<geometry_msgs::WrenchStamped>(
-          private_handle, outside_wrench_topic(name), owner,
-          [owner, frames](const geometry_msgs::WrenchStamped& message) { return read_wrench(message, owner, frames); });
-    if (motion == Motion::commanded) listen<geometry_msgs::Twist>(private_handle, command_topic(name), owner, read_velocity);
+          private_handle, outside_wrench_topic(name),
+          [this, owner, frames](const geometry_msgs::WrenchStamped& message) { inbox_.put(owner, read_wrench(message, owner, frames)); });
+    if (motion == Motion::commanded)
+      listen<geometry_msgs::Twist>(private_handle, command_topic(name),
+                                   [this, owner](const geometry_msgs::Twist& message) { inbox_.put(owner, read_velocity(message)); });
   }
+  for (std::size_t o = 0; o < checked.openings.size(); ++o)
+    if (checked.openings[o].command)
+      listen<std_msgs::Float64>(private_handle, discharge_topic(checked.openings[o].name),
+                                [this, o](const std_msgs::Float64& message) { inbox_.put_discharge(o, read_discharge(message)); });
 }
 
-template <class Message, class Read>
-void BodyInputs::listen(ros::NodeHandle& private_handle, const std::string& topic, std::size_t owner, Read read) {
+template <class Message, class Take>
+void BodyInputs::listen(ros::NodeHandle& private_handle, const std::string& topic, Take take) {
   const auto warnings = std::make_shared<Warnings>(private_handle.resolveName(topic));
-  const boost::function<void(const boost::shared_ptr<const Message>&)> hear = [this, owner, read,
+  const boost::function<void(const boost::shared_ptr<const Message>&)> hear = [take,
                                                                                warnings](const boost::shared_ptr<const Message>& message) {
     try {
-      inbox_.put(owner, read(*message));
+      take(*message);
     } catch (const Error& error) {
       warnings->warn(error.what());
     }
@@ -63,6 +69,13 @@ void BodyInputs::listen(ros::NodeHandle& private_handle, const std::string& topi
 
 void BodyInputs::apply(Simulation& simulation) {
   const BodyInbox::Contents contents = inbox_.take();
+  for (const auto& [opening, discharge] : contents.discharges) {
+    try {
+      simulation.command_discharge(opening, discharge);
+    } catch (const Error& error) {  // too fast for the speed of sound: the one before stays
+      log(LogLevel::warning, error.what());
+    }
+  }
   if (contents.wrenches.empty() && contents.velocities.empty()) return;
   const double time = simulation.state().time;
   const Quaterniond tank = simulation.bodies().state(0).orientation;

@@ -39,6 +39,7 @@ SampleMessages::SampleMessages(const Case& checked, const Layout& layout, const 
     foot[top.axis] = top.bottom_of(layout.domain);
     gauges_.positions.push_back(point_message(foot));
   }
+  for (const OpeningCase& opening : checked.openings) flow_topics_.push_back(flow_topic(opening.name));
   wrench_topics_.push_back(wrench_topic(tank_name));
   for (const BodyCase& body : checked.bodies) wrench_topics_.push_back(wrench_topic(body.name));
 }
@@ -62,6 +63,15 @@ WaveGaugeArray SampleMessages::gauges(const LevelSample& sample, const StampCloc
   WaveGaugeArray message = gauges_;
   message.header.stamp = clock.at(sample.time);
   message.levels = sample.levels;
+  return message;
+}
+
+OpeningFlow SampleMessages::flow(std::size_t index, const FlowSample& sample, const StampClock& clock) const {
+  OpeningFlow message;
+  message.header.stamp = clock.at(sample.time);
+  message.header.frame_id = publishing_.world_frame;
+  message.discharge = sample.flows[index].discharge;
+  message.volume = sample.flows[index].volume;
   return message;
 }
 

@@ -31,6 +31,10 @@ std::string outside_wrench_topic(const std::string& body) { return body_topic(bo
 
 std::string command_topic(const std::string& body) { return body_topic(body, "cmd_vel"); }
 
+std::string flow_topic(const std::string& opening) { return "openings/" + graph_name(opening) + "/flow"; }
+
+std::string discharge_topic(const std::string& opening) { return "openings/" + graph_name(opening) + "/discharge"; }
+
 std::string probe_frame(const PublishingCase& publishing, const std::string& probe) {
   return publishing.world_frame + "/probes/" + graph_name(probe);
 }
@@ -56,6 +60,7 @@ void check_names(const Case& checked) {
   for (const BodyCase& body : checked.bodies) claim(taken, wrench_topic(body.name), "body '" + body.name + "'");
   for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
     claim(taken, probe_topic(probe.name), "pressure probe '" + probe.name + "'");
+  for (const OpeningCase& opening : checked.openings) claim(taken, flow_topic(opening.name), "opening '" + opening.name + "'");
 }
 
 }  // namespace wavetank

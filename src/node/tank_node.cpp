@@ -85,6 +85,7 @@ void TankNode::advertise_topics() {
   for (const BodyCase& body : case_.bodies) bodies.push_back(body.name);
   for (const std::string& body : bodies)
     for (const char* part : {"", "/pressure", "/viscous"}) advertise(wrench_topic(body) + part, geometry_msgs::WrenchStamped());
+  for (const OpeningCase& opening : case_.openings) advertise(flow_topic(opening.name), OpeningFlow());
   std::vector<std::string> moving;
   if (case_.tank.motion != Motion::fixed) moving.push_back(tank_name);
   for (const BodyCase& body : case_.bodies)

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "motion_record.h"
 #include "number_text.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/record_file.h"
 #include "wavetank/scene/file_path.h"
 
 namespace wavetank {
@@ -98,7 +98,7 @@ MotionTerm ramp_term(const RampCase& ramp, const std::string& what) {
 }
 
 /// Which columns are followed, and in which directions they move.
-std::vector<std::pair<std::string, Direction>> followed_columns(const RecordCase& record, const MotionRecord& file, int dimensions) {
+std::vector<std::pair<std::string, Direction>> followed_columns(const RecordCase& record, const RecordFile& file, int dimensions) {
   if (!record.column.empty()) {
     const std::optional<Direction> direction = record.direction ? record.direction : direction_named(record.column);
     if (!direction) {
@@ -131,7 +131,7 @@ void add_record(const RecordCase& record, int dimensions, const std::string& cas
   } catch (const Error& error) {
     throw Error(what + ": " + error.what());
   }
-  const MotionRecord file(path, what);
+  const RecordFile file(path, what, "motion");
   std::vector<double> times = file.times(record.time_column);
   double least_gap = times[1] - times[0];
   for (std::size_t k = 2; k < times.size(); ++k) least_gap = std::min(least_gap, times[k] - times[k - 1]);

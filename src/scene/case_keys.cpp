@@ -3,6 +3,7 @@
 #include "joint_keys.h"
 #include "mesh_keys.h"
 #include "motion_values.h"
+#include "opening_keys.h"
 #include "rigid_keys.h"
 #include "robot_keys.h"
 
@@ -59,21 +60,23 @@ Section<FluidCase> fluid_section() {
       .key("particles", &FluidCase::particles, count_if_given(between(1, 1e9)), "",
            "About so many fluid particles: the spacing follows from the fluid's volume.")
       .required = true;
-  section.key("fill", &FluidCase::fill, list_of(fill_section()), "", "Where the water is at the start: one or more regions.").required =
-      true;
+  section
+      .key("fill", &FluidCase::fill, list_of(fill_section()), "",
+           "Where the water is at the start: one or more regions; [] where all of it comes in by openings.")
+      .required = true;
   Section<InitialCase> initial;
-  initial.key("u", &InitialCase::u, expression(), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
-  initial.key("v", &InitialCase::v, expression(), "m/s", "Along y; not used in 2-D.");
-  initial.key("w", &InitialCase::w, expression(), "m/s", "Along z.");
-  initial.key("pressure", &InitialCase::pressure, expression(), "Pa", "Gauge pressure, instead of the hydrostatic one.");
+  initial.key("u", &InitialCase::u, expression(Expression::Of::place), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
+  initial.key("v", &InitialCase::v, expression(Expression::Of::place), "m/s", "Along y; not used in 2-D.");
+  initial.key("w", &InitialCase::w, expression(Expression::Of::place), "m/s", "Along z.");
+  initial.key("pressure", &InitialCase::pressure, expression(Expression::Of::place), "Pa",
+              "Gauge pressure, instead of the hydrostatic one.");
   section.key("initial", &FluidCase::initial, section_of(initial), "",
               "Velocity and pressure at the start, after packing and settling: expressions of x, y, z (m), with pi and the usual "
               "functions. What is not "
               "given is at rest and hydrostatic.");
+  section.key("current", &FluidCase::current, vector_in_plane(), "m/s",
+              "Velocity of all water at the start, beside what `initial` gives: a flume begins with its current.");
   section.exactly_one_of({{"spacing"}, {"particles"}});
-  section.rule([](const FluidCase& fluid, const Setting& map, const std::string& path, const Context&) {
-    if (fluid.fill.empty()) refuse(*map.find("fill"), {join_path(path, "fill"), ""}, "a list of at least one region");
-  });
   return section;
 }
 
@@ -275,6 +278,8 @@ Section<InstrumentsCase> instruments_section() {
               "Of the force and torque on tank and bodies; `auto` is `instruments/rate`.");
   section.key("energy_rate", &InstrumentsCase::energy_rate, number_or_auto(rates), "Hz",
               "Of energies and mass; `auto` is `instruments/rate`.");
+  section.key("flow_rate", &InstrumentsCase::flow_rate, number_or_auto(rates), "Hz",
+              "Of the discharges at openings; `auto` is `instruments/rate`.");
   section.key("pose_rate", &InstrumentsCase::pose_rate, number_or_auto(rates), "Hz",
               "Of moving bodies' poses and of joints; `auto` is 100, or `instruments/rate` where that is less.");
   return section;
@@ -312,6 +317,7 @@ Section<Case> declare_case() {
   section.key("joints", &Case::joints, list_of(joint_section()), "", "Joints between bodies, or a body and the tank or the world.");
   section.key("robots", &Case::robots, robot_list(), "",
               "Robots described in URDF: their links become bodies and their joints joints, after those of the case.");
+  section.key("openings", &Case::openings, list_of(opening_section()), "", "Holes in walls, through which water comes in and leaves.");
   section.key("numerics", &Case::numerics, section_of(numerics_section()), "", "The method.");
   section.key("instruments", &Case::instruments, section_of(instruments_section()), "", "What is measured.");
   section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds are published.");

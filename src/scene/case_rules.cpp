@@ -5,6 +5,7 @@
 #include "joint_keys.h"
 #include "motion_keys.h"
 #include "motion_values.h"
+#include "opening_keys.h"
 #include "wavetank/common/error.h"
 #include "wavetank/scene/upward.h"
 
@@ -27,7 +28,7 @@ class NameCheck {
     if (name == "tank") throw Error(start + "which is reserved for the tank itself; give another name");
     if (name == world_frame_) throw Error(start + "which is the world_frame too; give another name");
     const auto [earlier, is_new] = paths_.emplace(name, path);
-    if (!is_new) throw Error(start + "as is " + earlier->second + "; every body, probe and gauge must have a name of its own");
+    if (!is_new) throw Error(start + "as is " + earlier->second + "; every body, probe, gauge and opening must have a name of its own");
   }
 
   const Setting& root_;
@@ -192,6 +193,8 @@ void check_case(const Case& read, const Setting& root) {
     if (numerics != nullptr && numerics->find("smagorinsky_coefficient") != nullptr)
       clash(root, "numerics/smagorinsky_coefficient", "of numerics/turbulence: smagorinsky only; leave it out, or set that");
   }
+  if (read.fluid.fill.empty() && read.openings.empty())
+    refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);
   check_friction(read, root, read.numerics.walls.friction, "numerics/walls/friction");
   for (std::size_t b = 0; b < read.bodies.size(); ++b)
@@ -209,7 +212,9 @@ void check_case(const Case& read, const Setting& root) {
     check_body_name(read.bodies[i].name, join_path(join_path("bodies", i), "name"), root);
   names.check(read.instruments.pressure_probes, "instruments/pressure_probes");
   names.check(read.instruments.wave_gauges, "instruments/wave_gauges");
+  names.check(read.openings, "openings");
   check_probes(read, root);
+  check_openings(read, root);
 }
 
 }  // namespace wavetank::scene

@@ -21,6 +21,10 @@ class FileCheck {
       check_named("motion record", records[i].file, join_path(join_path(join_path(path, "prescribed/records"), i), "file"));
   }
 
+  void check(const OpeningCase& opening, const std::string& path) const {
+    if (opening.record) check_named("flow record", opening.record->file, join_path(path, "record/file"));
+  }
+
  private:
   bool can_find(const std::string& uri) const {
     if (uri.find("://") != std::string::npos) return uri.compare(0, 7, "file://") == 0;
@@ -46,6 +50,7 @@ void check_files(const Case& read, const Setting& root) {
   const FileCheck files(read.directory, root);
   files.check(read.tank, "tank");
   for (std::size_t i = 0; i < read.bodies.size(); ++i) files.check(read.bodies[i], join_path("bodies", i));
+  for (std::size_t i = 0; i < read.openings.size(); ++i) files.check(read.openings[i], join_path("openings", i));
 }
 
 }  // namespace wavetank::scene

@@ -6,8 +6,6 @@
 #include <regex>
 #include <sstream>
 
-#include "wavetank/common/expression.h"
-
 namespace wavetank::scene {
 namespace {
 
@@ -248,13 +246,14 @@ Codec<std::string> nonempty_text() {
   return codec;
 }
 
-Codec<std::string> expression() {
+Codec<std::string> expression(Expression::Of of) {
   Codec<std::string> codec = text();
   codec.type = "expression";
-  codec.read = [](const Setting& setting, const Item& item, Context&) {
-    if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "an expression of x, y and z");
+  codec.read = [of](const Setting& setting, const Item& item, Context&) {
+    const std::string variables = of == Expression::Of::time ? "t" : "x, y and z";
+    if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "an expression of " + variables);
     try {
-      Expression(setting.text);
+      Expression(setting.text, of);
     } catch (const Error& wrong) {
       throw Error(setting.place.describe() + ": " + item.path + ": " + wrong.what());
     }

@@ -13,6 +13,7 @@
 #include "key_description.h"
 #include "setting.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/expression.h"
 
 /// The kinds of value that a key of a case can have: each reads a setting into a value of the case, checks it, and writes it back.
 namespace wavetank::scene {
@@ -84,16 +85,16 @@ Codec<int> dimension_count();  ///< 2 or 3, and tells the context
 Codec<bool> flag();
 Codec<std::string> text();  ///< any, also empty
 Codec<std::string> nonempty_text();
-Codec<std::string> expression();    ///< of x, y and z; empty: not given
-Codec<std::string> name();          ///< of a body, probe or gauge: part of a topic's name
-Codec<std::string> frame();         ///< of tf
-Codec<Vector3d> vector();           ///< 3 numbers; in 2-D also [x, z]
-Codec<Vector3d> position();         ///< the same, but y is 0 in 2-D whatever is given
-Codec<Vector3d> size();             ///< the same, each greater than 0
-Codec<Vector3d> scale();            ///< a number greater than 0, or three of which none is 0
-Codec<Vector3d> gauge_position();   ///< [x, y] or [x, y, z], in 2-D [x] as well; z is not kept
-Codec<std::array<bool, 3>> axes();  ///< a list of the letters x, y, z; y not in 2-D
-Codec<Vector3d> angles();           ///< three, degrees in the setting, radians in the value
+Codec<std::string> expression(Expression::Of of);  ///< empty: not given
+Codec<std::string> name();                         ///< of a body, probe or gauge: part of a topic's name
+Codec<std::string> frame();                        ///< of tf
+Codec<Vector3d> vector();                          ///< 3 numbers; in 2-D also [x, z]
+Codec<Vector3d> position();                        ///< the same, but y is 0 in 2-D whatever is given
+Codec<Vector3d> size();                            ///< the same, each greater than 0
+Codec<Vector3d> scale();                           ///< a number greater than 0, or three of which none is 0
+Codec<Vector3d> gauge_position();                  ///< [x, y] or [x, y, z], in 2-D [x] as well; z is not kept
+Codec<std::array<bool, 3>> axes();                 ///< a list of the letters x, y, z; y not in 2-D
+Codec<Vector3d> angles();                          ///< three, degrees in the setting, radians in the value
 
 /// One of the listed words.
 template <class Enum>

@@ -28,7 +28,7 @@ std::vector<WaterColumn> water_columns(const Layout& layout) {
   const Vector3d beside = std::abs(up.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
   const Vector3d along = (beside - up.dot(beside) * up).normalized(), across = up.cross(along);
   std::map<std::array<int, 2>, std::vector<std::pair<double, double>>> heights;  // of particles along `up`, and their levels
-  for (std::size_t i = 0; i < layout.particles.size(); ++i) {
+  for (std::size_t i = 0; i < layout.particles.size() - layout.beyond; ++i) {
     const Vector3d from_corner = layout.particles[i] - layout.domain.min;
     heights[{static_cast<int>(std::floor(along.dot(from_corner) / cell)), static_cast<int>(std::floor(across.dot(from_corner) / cell))}]
         .emplace_back(up.dot(layout.particles[i]), layout.levels[i]);
@@ -145,6 +145,7 @@ CaseSize size_of(const Case& scene, const Layout& layout, const RigidWorld& worl
 }
 
 void tell_of_shallow_water(const Layout& layout) {
+  if (layout.particles.size() == layout.beyond) return;  // all of it comes later
   const double depth = least_depth(layout);
   if (!(depth < (fewest_over_depth - 0.01) * layout.spacing)) return;
   log(LogLevel::warning, "the water is only " + number(depth / layout.spacing) + " spacings deep (" + number(depth) +

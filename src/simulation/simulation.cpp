@@ -87,19 +87,28 @@ std::size_t walls_in_use(const Case& scene, const Layout& layout) {
 Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
     : options(std::move(given)),
       layout(laid_out(checked)),
-      fastest(fastest_wall(checked, layout, options.resolve)),
+      laws(laws_of(checked)),
+      fastest(std::max(fastest_wall(checked, layout, options.resolve), fastest_inflow(checked))),
       scene(settled(checked, layout, fastest)),
       discretisation(discretise(scene, layout)),
       world(scene, layout, options.resolve),
       coupling(world, scene, layout, discretisation),
       film(world, scene, layout, discretisation),
+      openings(scene, layout, discretisation, laws),
       device(compute::choose_device(scene.device), options.time_kernels),
       solver(prepared_solver()),
-      recorder(scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); }) {
+      recorder(
+          scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); },
+          [this] {
+            std::vector<FlowAtOpening> flows;
+            for (const OpeningState& state : openings.states()) flows.push_back({state.discharge, state.volume});
+            return flows;
+          }) {
   tell_of_noise(scene);
   tell_of_shallow_water(layout);
   tell_of_thin_walls(scene, discretisation, *solver);
   solver->limit_time_step(coupling.longest_time_step());
+  openings.hold(*solver);
   initial_bodies = world.save();
   for (std::size_t o = 0; o < world.count(); ++o) reaches.push_back(reach_of(layout.meshes[o].bounding_box(), world.reference(o)));
   left_tank.resize(world.count(), false);
@@ -110,6 +119,20 @@ Layout Simulation::Parts::laid_out(const Case& checked) const {
   Layout result = lay_out(checked, options.resolve);
   progress("laying out", 1.0);
   return result;
+}
+
+std::vector<FlowLaw> Simulation::Parts::laws_of(const Case& checked) const {
+  std::vector<FlowLaw> result;
+  for (const OpeningCase& opening : checked.openings) result.emplace_back(opening, checked.directory, options.resolve);
+  return result;
+}
+
+double Simulation::Parts::fastest_inflow(const Case& checked) const {
+  double fastest_of_all = 0;
+  for (std::size_t o = 0; o < laws.size(); ++o)
+    fastest_of_all = std::max(fastest_of_all, fastest_flow(checked.openings[o], layout.openings[o], laws[o], checked.duration));
+  if (fastest_of_all > 0) fastest_of_all = std::hypot(fastest_of_all, expected_speed(checked, layout));  // and falls on from there
+  return fastest_of_all;
 }
 
 std::unique_ptr<Solver> Simulation::Parts::prepared_solver() {
@@ -153,6 +176,7 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
   if (parts.world.anything_moves()) parts.solver->set_wall_motions(parts.coupling.now());
   parts.initial_fluid = parts.solver->save();
   parts.initial_bodies = parts.saved_bodies();
+  parts.initial_openings = parts.openings.save();
   parts.initial_time_step = parts.report.time_step;
   parts.time_step = parts.initial_time_step;
   parts.recorder.start(*parts.solver);
@@ -197,7 +221,9 @@ void Simulation::Parts::find_films() {
 void Simulation::Parts::step_on() {
   coupling.set_time(time);
   find_films();
+  openings.before_step(*solver, time, time_step);
   report = solver->advance(world.anything_moves() ? &coupling : nullptr);
+  openings.after_step(report);
   time += time_step;
   ++step;
   guard_hits += static_cast<std::uint64_t>(report.guard_hits);
@@ -211,6 +237,7 @@ void Simulation::reset() {
   parts.solver->restore(parts.initial_fluid);
   parts.time = 0;
   parts.restore_bodies(parts.initial_bodies);
+  parts.openings.restore(parts.initial_openings);
   parts.time_step = parts.initial_time_step;
   parts.step = 0;
   parts.guard_hits = 0;
@@ -228,6 +255,10 @@ void Simulation::set_outside_wrench(std::size_t owner, const OutsideWrench& wren
 void Simulation::command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity) {
   parts_->world.command(owner, parts_->time, velocity, angular_velocity);
 }
+
+void Simulation::command_discharge(std::size_t opening, double discharge) { parts_->openings.command(opening, parts_->time, discharge); }
+
+const std::vector<OpeningState>& Simulation::openings() const { return parts_->openings.states(); }
 
 const RigidWorld& Simulation::bodies() const { return parts_->world; }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling.h"
+#include "opening_flows.h"
 #include "water_film.h"
 #include "wavetank/common/stopwatch.h"
 #include "wavetank/compute/device.h"
@@ -21,6 +22,9 @@ struct Simulation::Parts {
   Parts(const Case& checked, SimulationOptions given);
 
   Layout laid_out(const Case& checked) const;
+  std::vector<FlowLaw> laws_of(const Case& checked) const;
+  /// Of any opening from the start to the end, m/s.
+  double fastest_inflow(const Case& checked) const;
   std::unique_ptr<Solver> prepared_solver();
   void progress(const char* what, double fraction) const;
   /// The fluid's, with those of films that particles do not resolve.
@@ -51,17 +55,19 @@ struct Simulation::Parts {
   SimulationOptions options;
   Stopwatch compiling;
   Layout layout;
-  double fastest;  ///< m/s, expected of walls
+  std::vector<FlowLaw> laws;
+  double fastest;  ///< m/s, expected of walls, and of what comes in
   Case scene;
   Discretisation discretisation;
   RigidWorld world;
   Coupling coupling;
   WaterFilm film;
+  OpeningFlows openings;
   compute::Device device;
   std::unique_ptr<Solver> solver;
   Recorder recorder;
   PackingReport packing;
-  std::vector<char> initial_fluid, initial_bodies;
+  std::vector<char> initial_fluid, initial_bodies, initial_openings;
   double initial_time_step = 0;
   double time = 0;
   double time_step = 0;

@@ -9,8 +9,9 @@
 namespace wavetank {
 namespace {
 
-/// Tells one geometry, and prescribed motions, from others (FNV-1a): a case names its meshes and records, but does not hold them.
-std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWorld& world) {
+/// Tells one geometry, prescribed motions and laws of flow from others (FNV-1a): a case names its meshes and records, but does not hold
+/// them.
+std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWorld& world, const std::vector<FlowLaw>& laws) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto add = [&hash](const double* values, std::size_t count) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values);
@@ -34,12 +35,17 @@ std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWo
       add(states[owner].orientation.coeffs().data(), 4);
     }
   }
+  for (const FlowLaw& law : laws)
+    for (double time = 0; law.quantity() && time < end; time += interval) {
+      const double value = law.unchecked_at(time);
+      add(&value, 1);
+    }
   return hash;
 }
 
 /// The case and its geometry as far as they decide the flow and the samples: what a snapshot must agree on.
-std::string flow_of(Case scene, const Layout& layout, const RigidWorld& world) {
-  const std::uint64_t geometry = fingerprint(scene, layout, world);
+std::string flow_of(Case scene, const Layout& layout, const RigidWorld& world, const std::vector<FlowLaw>& laws) {
+  const std::uint64_t geometry = fingerprint(scene, layout, world, laws);
   scene.title.clear();
   scene.duration = 1;
   scene.device = "auto";
@@ -74,13 +80,14 @@ void Simulation::save(const std::string& path) const {
   Snapshot snapshot;
   snapshot.version = version();
   snapshot.device = device_description();
-  snapshot.scene = flow_of(parts.scene, parts.layout, parts.world);
+  snapshot.scene = flow_of(parts.scene, parts.layout, parts.world, parts.laws);
   snapshot.time = parts.time;
   snapshot.time_step = parts.time_step;
   snapshot.step = parts.step;
   snapshot.guard_hits = parts.guard_hits;
   snapshot.clocks = parts.recorder.clock_indices();
   snapshot.bodies = parts.saved_bodies();
+  snapshot.openings = parts.openings.save();
   snapshot.fluid = parts.solver->save();
   write_snapshot(path, snapshot);
 }
@@ -88,10 +95,10 @@ void Simulation::save(const std::string& path) const {
 void Simulation::restore(const std::string& path) {
   Parts& parts = *parts_;
   const Snapshot snapshot = read_snapshot(path);
-  if (snapshot.scene != flow_of(parts.scene, parts.layout, parts.world))
+  if (snapshot.scene != flow_of(parts.scene, parts.layout, parts.world, parts.laws))
     throw Error("the snapshot " + path +
                 " belongs to another case: everything but title, duration, device and publishing must be the same, meshes and records of "
-                "motions too.");
+                "motions and flows too.");
   try {
     parts.solver->restore(snapshot.fluid);
   } catch (const Error& error) {
@@ -101,6 +108,7 @@ void Simulation::restore(const std::string& path) {
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;
   parts.restore_bodies(snapshot.bodies);
+  parts.openings.restore(snapshot.openings);
   parts.time_step = snapshot.time_step;
   parts.step = snapshot.step;
   parts.guard_hits = snapshot.guard_hits;

@@ -12,6 +12,9 @@ double expected_speed(const Case& checked, const Layout& layout) {
   const double floor = lowest_of(layout.domain, layout.up);
   double surface = floor;
   for (const double level : layout.levels) surface = std::max(surface, level);
+  for (const Opening& opening : layout.openings)
+    for (const Opening::Column& column : opening.columns)
+      if (column.wet) surface = std::max(surface, layout.up.dot(column.place));
   const double drop = std::max(surface - floor, layout.spacing);
   return std::sqrt(2.0 * checked.gravity.norm() * drop);
 }
@@ -41,8 +44,10 @@ Discretisation discretise(const Case& settled_case, const Layout& layout) {
 
   // sideways and below, half a spacing of tolerance; above an open tank, three times the expected speed may throw water nine times its fall
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * d.spacing);
-  d.lower = layout.domain.min - margin;
-  d.upper = layout.domain.max + margin;
+  const Box reach = with_pockets(layout.domain, layout.openings, d.dimensions);
+  d.lower = reach.min - margin;
+  d.upper = reach.max + margin;
+  d.tank = layout.domain;
   const double speed = expected_speed(settled_case, layout), gravity = std::max(settled_case.gravity.norm(), 1e-9);
   const double throw_height = std::min(9.0 * speed * speed / (2.0 * gravity), 100.0 * (d.upper - d.lower)[top_of(settled_case).axis]);
   double depth = 0;

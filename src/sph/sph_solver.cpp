@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "build_options.h"
 #include "film_values.h"
@@ -288,12 +289,14 @@ void SphSolver<Real>::find_accelerations(Slot state) {
   if (accelerates_by_gradients_) find_gradients(state);
   load_walls(state);
   kernels_.momentum[state].launch(count_);
+  hold_zones(state);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates(Slot state) {
   if (compresses_by_gradients_) find_gradients(state);
   kernels_.continuity[state].launch(count_);
+  hold_zones(state);
 }
 
 template <class Real>
@@ -301,6 +304,7 @@ void SphSolver<Real>::find_rates(Slot state) {
   find_gradients(state);
   load_walls(state);
   kernels_.rates[state].launch(count_);
+  hold_zones(state);
 }
 
 template <class Real>
@@ -352,8 +356,19 @@ void SphSolver<Real>::find_shifts() {
   if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
   sweep_surface();
   kernels_.shifts.launch(count_);
+  if (zones_.any()) kernels_.hold_shifts.launch(count_);
   // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts
   if (case_.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume")) find_compression_rates(Slot::now);
+}
+
+template <class Real>
+void SphSolver<Real>::impose_zones() {
+  if (zones_.any()) kernels_.impose.launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::hold_zones(Slot state) {
+  if (zones_.any()) kernels_.hold_rates[state].launch(count_);
 }
 
 template <class Real>
@@ -444,13 +459,33 @@ StepReport SphSolver<Real>::watch() {
   report.too_fast = count("fast");
   report.guard_hits = count("guarded");
   report.shepard_bounded = count("bounded");
+  report.let_in = std::exchange(masses_let_in_, {});
+  const int with_those_that_leave = count_;
   set_count(count("particles"));
+  report.left = find_left(with_those_that_leave);
   for (std::size_t k = common_reports().size(); k < reports_.rows().size(); ++k) {
     const ReportRow& row = reports_.rows()[k];
     report.more[row.name] = row.kind == ReportRow::Kind::greatest ? greatest(row.name.c_str()) : count(row.name.c_str());
   }
   if (report.not_finite + report.outside + report.too_fast > 0) describe_offender(report, count("offender"));
   return report;
+}
+
+template <class Real>
+std::vector<LeftParticle> SphSolver<Real>::find_left(int before) const {
+  std::vector<LeftParticle> left(before - count_);
+  if (left.empty()) return left;
+  const auto read = [&](const char* name) {
+    std::vector<Real> values(left.size());
+    state_.memory().read(values.data(), values.size() * sizeof(Real), index_of(name, count_) * sizeof(Real));
+    return values;
+  };
+  std::vector<std::uint32_t> id(left.size());
+  id_.memory().read(id.data(), id.size() * sizeof(std::uint32_t), count_ * sizeof(std::uint32_t));
+  const std::vector<Real> mass = read("mass"), x = read("x"), y = read("y"), z = read("z");
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = {id[k], mass[k], discretisation_.origin + Eigen::Vector3d(x[k], y[k], z[k])};
+  std::sort(left.begin(), left.end(), [](const LeftParticle& a, const LeftParticle& b) { return a.id < b.id; });
+  return left;
 }
 
 template <class Real>

@@ -19,6 +19,7 @@
 #include "tank_images.h"
 #include "wall_wrenches.h"
 #include "wavetank/sph/solver.h"
+#include "zones.h"
 
 namespace wavetank {
 
@@ -41,6 +42,7 @@ class SphSolver final : public Solver, private StepEngine {
   std::size_t particle_count() const override { return static_cast<std::size_t>(count_); }
   void let_in(const NewParticles& particles) override;
   void set_drains(const std::vector<Drain>& drains) override;
+  void set_zones(const std::vector<ImposedZone>& zones) override;
   std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
@@ -89,6 +91,7 @@ class SphSolver final : public Solver, private StepEngine {
   void bind_kernels();
   void bind_sweeps();
   void bind_time_step();
+  void bind_zones();
   void bind_reductions();
   void bind(const DevicePoints& points) const;
 
@@ -112,6 +115,7 @@ class SphSolver final : public Solver, private StepEngine {
   void guard() override;
   void sort() override;
   void find_shifts() override;
+  void impose_zones() override;
   void drift_to_middle() override;
   void kick_and_drift_to_end() override;
   void compress_to_end() override;
@@ -132,13 +136,19 @@ class SphSolver final : public Solver, private StepEngine {
   void load_walls(Slot state);
   void sweep_surface();
   void find_gradients(Slot state);
+  /// After what has found rates.
+  void hold_zones(Slot state);
   StepReport watch();
+  /// Those that have left in this step, which lie after all others; there are `before` with them.
+  std::vector<LeftParticle> find_left(int before) const;
   void describe_offender(StepReport& report, int first) const;
 
   struct Kernels {
+    std::map<Slot, compute::BoundKernel> hold_rates;
     std::map<Slot, BoundSweep> continuity, momentum, rates, gradients, loads;
     BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
-    compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end;
+    compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end, impose,
+        hold_shifts;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
   };
   /// Of the state's vectors, where their first components are.
@@ -159,8 +169,10 @@ class SphSolver final : public Solver, private StepEngine {
   std::int64_t next_id_ = 0;
   NewParticles waiting_;  ///< to come in
   Drains<Real> drains_;
-  bool open_ = false;  ///< particles may come or go
-  Stride stride_ = 0;  ///< at least that many particles have room
+  Zones<Real> zones_;
+  std::vector<double> masses_let_in_;  ///< kg, in the present step
+  bool open_ = false;                  ///< particles may come or go
+  Stride stride_ = 0;                  ///< at least that many particles have room
   int chunks_ = 0;
   int groups_ = 0;  ///< chunks of chunks
   BuildOptions options_;

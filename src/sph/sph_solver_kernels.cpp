@@ -25,6 +25,7 @@ void SphSolver<Real>::bind_kernels() {
   ++bindings_;
   bind_sweeps();
   bind_time_step();
+  bind_zones();
   bind_reductions();
   compute::Arguments sorting = arguments();
   drains_.add_to(sorting);
@@ -77,6 +78,18 @@ void SphSolver<Real>::bind_time_step() {
   back.memory("now", state_).memory("rates", rates_).memory("sum", std::as_const(sum_));
   kernels_.take_sum = kernel("take_sum", back);
   kernels_.correct_end = kernel("correct_end", back);
+}
+
+template <class Real>
+void SphSolver<Real>::bind_zones() {
+  const auto kernel = [&](const char* name, compute::Arguments writes) {
+    zones_.add_to(writes);
+    return make_->exact("zones.cl", name, writes);
+  };
+  kernels_.impose = kernel("impose_zones", arguments().memory("state", state_));
+  for (const Slot slot : {Slot::now, Slot::trial})
+    kernels_.hold_rates[slot] = kernel("hold_zone_rates", arguments_of(slot).memory("rates", rates_));
+  kernels_.hold_shifts = kernel("hold_zone_shifts", arguments().memory("state", state_));
 }
 
 template <class Real>

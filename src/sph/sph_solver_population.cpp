@@ -73,6 +73,11 @@ void SphSolver<Real>::set_drains(const std::vector<Drain>& drains) {
 }
 
 template <class Real>
+void SphSolver<Real>::set_zones(const std::vector<ImposedZone>& zones) {
+  zones_.set(device_, zones, discretisation_.origin, case_);
+}
+
+template <class Real>
 void SphSolver<Real>::check_nobody_came() const {
   if (next_id_ != given_ || !waiting_.position.empty())
     throw Error("a case was to be started, settled or packed when particles had come in already");
@@ -138,6 +143,7 @@ void SphSolver<Real>::add_waiting() {
     put(at("pressure"), k, waiting_.pressure[k]);
     put(at("volume"), k, waiting_.volume[k]);
     put(at("mass"), k, case_.fluid.density * (1 + compression) * waiting_.volume[k]);
+    masses_let_in_.push_back(state[static_cast<std::size_t>(at("mass")) * count + k]);
   }
   const auto write = [&](Buffer& to, std::size_t component, const Real* from) {
     to.memory().write(from, count * sizeof(Real), (component * static_cast<std::size_t>(stride_) + count_) * sizeof(Real));
@@ -153,13 +159,14 @@ void SphSolver<Real>::add_waiting() {
   waiting_ = NewParticles();
 }
 
-#define WAVETANK_POPULATION(Real)                                       \
-  template void SphSolver<Real>::set_count(int);                        \
-  template void SphSolver<Real>::reserve(int);                          \
-  template void SphSolver<Real>::let_in(const NewParticles&);           \
-  template void SphSolver<Real>::set_drains(const std::vector<Drain>&); \
-  template void SphSolver<Real>::check_nobody_came() const;             \
-  template void SphSolver<Real>::sort_all();                            \
+#define WAVETANK_POPULATION(Real)                                            \
+  template void SphSolver<Real>::set_count(int);                             \
+  template void SphSolver<Real>::reserve(int);                               \
+  template void SphSolver<Real>::let_in(const NewParticles&);                \
+  template void SphSolver<Real>::set_drains(const std::vector<Drain>&);      \
+  template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&); \
+  template void SphSolver<Real>::check_nobody_came() const;                  \
+  template void SphSolver<Real>::sort_all();                                 \
   template void SphSolver<Real>::add_waiting();
 WAVETANK_POPULATION(float)
 WAVETANK_POPULATION(double)

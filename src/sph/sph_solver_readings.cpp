@@ -3,6 +3,12 @@
 #include "sph_solver.h"
 
 namespace wavetank {
+namespace {
+
+constexpr std::size_t point_results = 6;  // pressure, filling, γ, velocity
+
+}  // namespace
+
 template <class Real>
 struct SphSolver<Real>::DevicePoints final : PointSet {
   DevicePoints(const compute::Device& on, const Eigen::Vector3d& grid_origin) : device(on), origin(grid_origin) {}
@@ -13,7 +19,8 @@ struct SphSolver<Real>::DevicePoints final : PointSet {
     for (int i = 0; i < count; ++i)
       for (int axis = 0; axis < 3; ++axis) values[axis * count + i] = static_cast<Real>(points[i][axis] - origin[axis]);
     places.set(device, values);
-    if (results.size() < places.on_device().size()) results = Buffer(device, places.on_device().size());
+    const std::size_t wanted = std::max<std::size_t>(point_results * points.size(), 1);
+    if (results.size() < wanted) results = Buffer(device, 2 * wanted);
   }
 
   compute::Device device;
@@ -46,9 +53,12 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
   if (points.binding != bindings_) bind(points);
   points.kernel.launch(points.count);
-  const std::vector<Real> results = points.results.download(3 * static_cast<std::size_t>(points.count));
+  const std::vector<Real> results = points.results.download(point_results * static_cast<std::size_t>(points.count));
   std::vector<PointValue> values(points.count);
-  for (int i = 0; i < points.count; ++i) values[i] = {results[i], results[points.count + i], results[2 * points.count + i]};
+  for (int i = 0; i < points.count; ++i) {
+    const auto result = [&](int k) { return static_cast<double>(results[static_cast<std::size_t>(k) * points.count + i]); };
+    values[i] = {result(0), result(1), result(2), Eigen::Vector3d(result(3), result(4), result(5))};
+  }
   return values;
 }
 
@@ -72,9 +82,8 @@ FluidEnergies SphSolver<Real>::energies() {
   const Eigen::Vector3d up = upward(case_);
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const double margin = 0.5 * discretisation_.spacing;
-    if (up[axis] > 0) floor[axis] = discretisation_.lower[axis] + margin - discretisation_.origin[axis];
-    if (up[axis] < 0) floor[axis] = discretisation_.upper[axis] - margin - discretisation_.origin[axis];
+    if (up[axis] > 0) floor[axis] = discretisation_.tank.min[axis] - discretisation_.origin[axis];
+    if (up[axis] < 0) floor[axis] = discretisation_.tank.max[axis] - discretisation_.origin[axis];
   }
   energies.potential += energies.mass * case_.gravity.dot(floor);
   return energies;

@@ -40,6 +40,8 @@ StepReport SphSolver<Real>::start_as_given() {
       state[(first_.velocity + axis) * stride_ + i] =
           static_cast<Real>(finite_at(expression, place_of(state, i), std::string(1, "uvw"[axis])));
   }
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < count_; ++i) state[(first_.velocity + axis) * stride_ + i] += static_cast<Real>(case_.fluid.current[axis]);
   if (!initial.pressure.empty()) {
     // of water that fills the volume that each particle was given
     const Expression expression(initial.pressure);
@@ -188,6 +190,7 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
     launch_among(closed, kernels_.packing);
+    hold_zones(Slot::now);
     if (k % report_interval == 0 || k == iterations) {
       kernels_.packing_chunks.launch(chunks_);
       packing_sums_.sum(chunks_);

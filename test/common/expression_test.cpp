@@ -15,6 +15,11 @@ TEST(Expression, IsAFunctionOfAPlace) {
   EXPECT_DOUBLE_EQ(Expression("1e-3").at({0, 0, 0}), 1e-3);
 }
 
+TEST(Expression, OrOfTime) {
+  EXPECT_DOUBLE_EQ(Expression("min(t, 1)*0.5", Expression::Of::time).at(0.5), 0.25);
+  EXPECT_NE(error_of([] { Expression("x + t", Expression::Of::time); }).find("\"x + t\" is no expression of t: "), std::string::npos);
+}
+
 TEST(Expression, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(error_of([] { Expression("sin(x"); }).find("\"sin(x\" is no expression of x, y and z: "), std::string::npos);
   const std::string unknown = error_of([] { Expression("2*t + x"); });

@@ -33,6 +33,7 @@ class ClockedFluid final : public Solver {
   std::size_t particle_count() const override { return 0; }
   void let_in(const NewParticles&) override {}
   void set_drains(const std::vector<Drain>&) override {}
+  void set_zones(const std::vector<ImposedZone>&) override {}
   std::optional<ThinWall> thinnest_wall() const override { return {}; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
     auto set = std::make_unique<Points>();

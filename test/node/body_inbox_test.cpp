@@ -84,6 +84,21 @@ TEST(ReadVelocity, RefusesWhatIsNotFinite) {
   EXPECT_THROW(read_velocity(message), Error);
 }
 
+TEST(Discharges, AreFiniteAndNotNegative) {
+  std_msgs::Float64 message;
+  message.data = 0.02;
+  EXPECT_EQ(read_discharge(message), 0.02);
+  for (const double wrong : {-0.01, nan, infinity}) {
+    message.data = wrong;
+    EXPECT_THROW(read_discharge(message), Error);
+  }
+  BodyInbox inbox;
+  inbox.put_discharge(1, 0.1);
+  inbox.put_discharge(1, 0.2);
+  EXPECT_EQ(inbox.take().discharges, (std::map<std::size_t, double>{{1, 0.2}}));
+  EXPECT_TRUE(inbox.take().discharges.empty());
+}
+
 TEST(OutsideWrenches, OfTheTanksAxesAreTurnedIntoTheWorld) {
   const Quaterniond tank(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
   AskedWrench asked{{1, 0, 2}, {0, 3, 0}, Axes::tank};

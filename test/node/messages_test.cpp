@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <type_traits>
 
 #include "example_case.h"
 #include "wavetank/scene/case_reader.h"
@@ -82,6 +83,31 @@ TEST(SampleMessages, AFreeTanksWrenchIsMovedFromItsCentreOfMassToItsFramesOrigin
   EXPECT_EQ(messages.wrench(0, SampleMessages::Part::pressure, sample, StampClock()).wrench.torque.z, 0.0);
   EXPECT_EQ(messages.wrench(1, SampleMessages::Part::total, sample, StampClock()).wrench.torque.y, 0.0)
       << "a body's frame is at its reference";
+}
+
+TEST(SampleMessages, FlowsOfOpeningsHaveATopicEach) {
+  Case example = example_case();
+  example.openings.resize(2);
+  example.openings[0].name = "hose";
+  example.openings[1].name = "drain";
+  const SampleMessages messages(example, example_layout(), example_frames(example));
+  Samples samples;
+  samples.flows = {{0.25, {{0.02, 0.5}, {-0.01, -0.25}}}, {0.5, {{0.03, 0.6}, {0, -0.25}}}};
+  std::map<std::string, std::vector<OpeningFlow>> heard;
+  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time& stamp, const auto& message) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(message)>, OpeningFlow>) {
+      EXPECT_EQ(stamp, message.header.stamp);
+      heard[topic].push_back(message);
+    }
+  });
+  ASSERT_EQ(heard["openings/hose/flow"].size(), 2U);
+  ASSERT_EQ(heard["openings/drain/flow"].size(), 2U);
+  EXPECT_EQ(heard["openings/drain/flow"][0].discharge, -0.01);
+  EXPECT_EQ(heard["openings/drain/flow"][0].volume, -0.25);
+  EXPECT_EQ(heard["openings/hose/flow"][1].header.stamp, ros::Time(0.5));
+  EXPECT_EQ(heard["openings/hose/flow"][1].header.frame_id, "basin");
+  example.openings[1].name = "hose";
+  EXPECT_THROW(SampleMessages(example, example_layout(), example_frames(example)), Error);
 }
 
 TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {

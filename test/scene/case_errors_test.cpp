@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"EmptyFill",
               "fill:\n    - box: {min: [0, 0, 0], max: [1, 1, 1]}",
               "fill: []",
-              {"case.yaml:7: fluid/fill is []; it must be a list of at least one region"}},
+              {"case.yaml:7: fluid/fill is []; it must be a list of at least one region, where there are no openings"}},
         Fault{"FillIsNoList",
               "fill:\n    - box:",
               "fill:\n      box:",

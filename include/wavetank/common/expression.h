@@ -6,18 +6,22 @@
 
 namespace wavetank {
 
-/// A number as a function of a place, given as text: of x, y and z with + − * / ^, comparisons, `? :`, pi, and sin, cos, tan, exp, ln,
-/// log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between threads.
+/// A number as a function of a place or of time, given as text: of x, y and z, or of t, with + − * / ^, comparisons, `? :`, pi, and sin,
+/// cos, tan, exp, ln, log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between threads.
 class Expression {
  public:
+  enum class Of { place, time };
+
   /// Throws Error, which says what is wrong and at which character, for text that is none.
-  explicit Expression(const std::string& text);
+  explicit Expression(const std::string& text, Of of = Of::place);
   ~Expression();
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
 
   /// At a place, m. Not finite where the expression is not.
   double at(const Eigen::Vector3d& place) const;
+  /// At a time, s; likewise.
+  double at(double time) const;
 
  private:
   struct Parser;

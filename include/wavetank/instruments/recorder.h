@@ -16,9 +16,11 @@ namespace wavetank {
 /// contains the sample's time and interpolated linearly, so instruments never change the steps.
 class Recorder {
  public:
-  /// `world` is looked at throughout; `wrenches`: of each owner, as Solver::wrenches() has them and by default those.
+  /// `world` is looked at throughout; `wrenches`: of each owner, as Solver::wrenches() has them and by default those; `flows`: at this
+  /// instant, of each opening.
   Recorder(const Case& settled_case, const Layout& layout, const Solver& solver, const RigidWorld& world,
-           std::function<std::vector<WallWrench>(Solver&)> wrenches = &Solver::wrenches);
+           std::function<std::vector<WallWrench>(Solver&)> wrenches = &Solver::wrenches,
+           std::function<std::vector<FlowAtOpening>()> flows = {});
 
   /// The samples at time 0.
   void start(Solver& solver);
@@ -34,7 +36,7 @@ class Recorder {
   /// Wall time that readings take in a step of `time_step` (s) on average, from a few that are made now and not kept, s.
   double seconds_a_step(Solver& solver, double time_step) const;
 
-  static constexpr std::size_t instrument_count = 5;
+  static constexpr std::size_t instrument_count = 6;
   std::array<std::uint64_t, instrument_count> clock_indices() const;
   void set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices);
 
@@ -57,10 +59,12 @@ class Recorder {
   void add_wrenches(const Case& scene);
   void add_poses(const Case& scene);
   void add_energies(const Case& scene);
+  void add_flows(const Case& scene);
 
   const RigidWorld& world_;
   Vector3d gravity_;
   std::function<std::vector<WallWrench>(Solver&)> wrenches_;
+  std::function<std::vector<FlowAtOpening>()> flows_;
   std::shared_ptr<PointSet> probes_;
   std::vector<Vector3d> probe_places_;     ///< of all points of all probes, as the case's geometry has them, m
   std::vector<std::size_t> probe_owners_;  ///< the body that each moves with; 0 = none

@@ -51,6 +51,17 @@ struct EnergySample {
   double damper_power = 0;  ///< W (2-D: W/m), that the acoustic damper takes of sound
 };
 
+/// Of what passes one opening.
+struct FlowAtOpening {
+  double discharge = 0;  ///< m³/s (2-D: m²/s), into the water; negative: out of it
+  double volume = 0;     ///< m³ (2-D: m²), that has come in less what has left, at the fluid's density ρ₀
+};
+
+struct FlowSample {
+  double time = 0;                   ///< s
+  std::vector<FlowAtOpening> flows;  ///< in the case's order of openings
+};
+
 /// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.
 struct Samples {
   std::vector<PressureSample> pressures;
@@ -58,6 +69,7 @@ struct Samples {
   std::vector<WrenchSample> wrenches;
   std::vector<EnergySample> energies;
   std::vector<PoseSample> poses;  ///< only where something moves
+  std::vector<FlowSample> flows;  ///< only of cases with openings
 };
 
 }  // namespace wavetank

@@ -9,7 +9,8 @@
 
 namespace wavetank {
 
-/// Listens for wrenches on free bodies and velocities of commanded ones, the tank included, and hands them to the simulation.
+/// Listens for wrenches on free bodies, velocities of commanded ones, the tank included, and discharges of commanded openings, and hands
+/// them to the simulation.
 class BodyInputs {
  public:
   /// wrench_timeout: s of simulated time for which a wrench is held; 0 = until it is replaced.
@@ -23,9 +24,9 @@ class BodyInputs {
   void clear() { inbox_.take(); }
 
  private:
-  /// `read` makes of a message what goes into the inbox, or throws Error.
-  template <class Message, class Read>
-  void listen(ros::NodeHandle& private_handle, const std::string& topic, std::size_t owner, Read read);
+  /// `take` puts a message into the inbox, or throws Error.
+  template <class Message, class Take>
+  void listen(ros::NodeHandle& private_handle, const std::string& topic, Take take);
 
   double wrench_timeout_;
   BodyInbox inbox_;

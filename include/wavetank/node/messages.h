@@ -4,6 +4,7 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <std_msgs/String.h>
+#include <wavetank/OpeningFlow.h>
 #include <wavetank/ProbeArray.h>
 #include <wavetank/SolverStatus.h>
 #include <wavetank/WaveGaugeArray.h>
@@ -36,6 +37,9 @@ class SampleMessages {
   /// On body `index` (0 the tank), in its frame and about that frame's origin.
   geometry_msgs::WrenchStamped wrench(std::size_t index, Part part, const WrenchSample& sample, const StampClock& clock) const;
 
+  /// Of opening `index`.
+  OpeningFlow flow(std::size_t index, const FlowSample& sample, const StampClock& clock) const;
+
   const PoseMessages& poses() const { return poses_; }
 
   /// Calls sink(topic, stamp, message) for every message of the samples, each exactly once and in order of time on its topic.
@@ -48,6 +52,8 @@ class SampleMessages {
       for (std::size_t i = 0; i < probe_topics_.size(); ++i) pass(probe_topics_[i], probe(i, sample, clock));
     }
     for (const LevelSample& sample : samples.levels) pass(gauges_topic, gauges(sample, clock));
+    for (const FlowSample& sample : samples.flows)
+      for (std::size_t i = 0; i < flow_topics_.size(); ++i) pass(flow_topics_[i], flow(i, sample, clock));
     for (const WrenchSample& sample : samples.wrenches) {
       for (std::size_t i = 0; i < sample.wrenches.size(); ++i) {
         pass(wrench_topics_[i], wrench(i, Part::total, sample, clock));
@@ -65,7 +71,7 @@ class SampleMessages {
   ProbeArray probes_;      ///< names and positions filled in
   WaveGaugeArray gauges_;  ///< likewise
   std::vector<std::string> probe_topics_, probe_frames_;
-  std::vector<std::string> wrench_topics_;
+  std::vector<std::string> wrench_topics_, flow_topics_;
   std::vector<BodyFrame> frames_;
   PoseMessages poses_;
 };

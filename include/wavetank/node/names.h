@@ -15,6 +15,8 @@ std::string wrench_topic(const std::string& body);                              
 std::string odometry_topic(const std::string& body);                                  ///< "bodies/box/odom"
 std::string outside_wrench_topic(const std::string& body);                            ///< "bodies/box/external_wrench", listened to
 std::string command_topic(const std::string& body);                                   ///< "bodies/box/cmd_vel", listened to
+std::string flow_topic(const std::string& opening);                                   ///< "openings/hose/flow"
+std::string discharge_topic(const std::string& opening);                              ///< "openings/hose/discharge", listened to
 std::string probe_frame(const PublishingCase& publishing, const std::string& probe);  ///< "tank/probes/P1"
 std::string body_frame(const PublishingCase& publishing, const std::string& body);    ///< "tank/bodies/box"
 /// The frame that a moving tank moves in: "world", or "inertial" if the tank's own frame is called "world".
@@ -23,7 +25,7 @@ std::string inertial_frame(const PublishingCase& publishing);
 /// The tank's own name among the bodies.
 inline const std::string tank_name = "tank";
 
-/// Throws Error if two probes, or two bodies (the tank is one), would have the same topic.
+/// Throws Error if two probes, two openings, or two bodies (the tank is one), would have the same topic.
 void check_names(const Case& checked);
 
 }  // namespace wavetank

@@ -49,8 +49,9 @@ struct FluidCase {
   std::optional<double> sound_speed;     ///< m/s; none = automatic: 10 × the greatest expected speed
   std::optional<double> spacing;         ///< m; exactly one of spacing and particles is given
   std::optional<std::size_t> particles;  ///< approximate number of fluid particles
-  std::vector<FillRegion> fill;          ///< at least one
+  std::vector<FillRegion> fill;          ///< at least one where there are no openings
   InitialCase initial;
+  Vector3d current = Vector3d::Zero();  ///< m/s, of all water at the start, beside what `initial` says
 };
 
 /// A parametric rectangular tank.
@@ -241,6 +242,51 @@ struct RobotCase {
   Motion motion = Motion::free;          ///< of the root link: free or fixed
 };
 
+/// What water does at an opening.
+enum class OpeningKind {
+  inlet,    ///< comes in as the opening's law says
+  outlet,   ///< leaves freely, to a level beyond the opening, or at a discharge
+  pressure  ///< stands under a head beyond the opening, and flows either way
+};
+enum class FlowProfile { uniform, parabolic };
+enum class FlowQuantity { discharge, velocity, head };
+
+/// A column of a file of comma-separated values with one header line, followed in straight lines; held at its ends.
+struct FlowRecordCase {
+  std::string file;                                 ///< package://, file://, absolute, or relative to the case file
+  FlowQuantity quantity = FlowQuantity::discharge;  ///< of the column
+  std::string time_column = "time";                 ///< s, increasing
+  std::string column;                               ///< empty: named as the quantity
+  double factor = 1;                                ///< m³/s (2-D: m²/s), m/s or m per unit of the column
+  double delay = 0;                                 ///< s, added to the file's times
+};
+
+/// Limits on a discharge that is commanded while it runs; none = as it is commanded.
+struct FlowCommandCase {
+  std::optional<double> greatest_discharge;  ///< m³/s (2-D: m²/s)
+  std::optional<double> greatest_rate;       ///< m³/s² (2-D: m²/s²), at which the discharge goes over to the one commanded
+  double timeout = 0.5;                      ///< s of simulated time without a command after which the discharge goes to zero; 0 = never
+};
+
+/// A plane hole in a wall of the tank or of a body that stands, through which water comes and goes.
+struct OpeningCase {
+  std::string name;
+  OpeningKind kind = OpeningKind::inlet;
+  std::string body;                            ///< in whose wall it is; empty = the tank
+  Vector3d centre = Vector3d::Zero();          ///< m
+  Vector3d normal = Vector3d::Zero();          ///< into the water; any length but 0
+  std::optional<std::array<double, 2>> size;   ///< m, width and height of a rectangle; the width is not used in 2-D
+  std::optional<Vector3d> up;                  ///< direction of the height; none = against gravity, or else along x
+  std::optional<double> diameter;              ///< m, of a disc; exactly one of size and diameter is given
+  std::string velocity;                        ///< m/s, mean over the wet part: an expression of t (Expression); empty = not given
+  std::string discharge;                       ///< m³/s (2-D: m²/s), likewise
+  std::string head;                            ///< m, likewise: height that water beyond would stand to
+  std::optional<FlowRecordCase> record;        ///< of one of these three, which is then not given
+  std::optional<FlowCommandCase> command;      ///< the discharge is commanded: none of the above is given
+  FlowProfile profile = FlowProfile::uniform;  ///< of the velocity, where it is given
+  std::optional<double> level;                 ///< m, of the free surface: of water that comes in; beyond an outlet
+};
+
 enum class WallMethod { boundary_integral, ghost };
 enum class ShepardFactor { none, volumetric, monolithic, geometric };
 enum class WallElements { numerical, semi_analytical, facet };
@@ -306,6 +352,7 @@ struct InstrumentsCase {
   std::optional<double> gauge_rate;   ///< Hz
   std::optional<double> wrench_rate;  ///< Hz
   std::optional<double> energy_rate;  ///< Hz
+  std::optional<double> flow_rate;    ///< Hz, of discharges at openings
   std::optional<double> pose_rate;    ///< Hz, of moving bodies' poses and joints; none = 100, or `rate` where that is less
 };
 
@@ -331,6 +378,7 @@ struct Case {
   std::vector<BodyCase> bodies;
   std::vector<JointCase> joints;
   std::vector<RobotCase> robots;
+  std::vector<OpeningCase> openings;
   NumericsCase numerics;
   InstrumentsCase instruments;
   PublishingCase publishing;

@@ -40,6 +40,14 @@ struct SolverState {
   std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was below 0.05 or above 1.005
 };
 
+/// Of an opening, since the start.
+struct OpeningState {
+  double discharge = 0;              ///< m³/s (2-D: m²/s), into the water in the last step; negative: out of it
+  double volume = 0;                 ///< m³ (2-D: m²), that has come in less what has left, at the fluid's density ρ₀
+  double mass_in = 0, mass_out = 0;  ///< kg (2-D: kg/m), of the particles that came in and left
+  std::uint64_t particles_in = 0, particles_out = 0;
+};
+
 /// The watchdog's: a running simulation that may not go on. what() says which particle, where, when, in which step.
 class Violation : public Error {
  public:
@@ -102,6 +110,10 @@ class Simulation {
   void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
   /// Of a commanded body or tank (owner 0), in its own axes, from the next step on. Throws Error as set_outside_wrench.
   void command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity);
+  /// Of a commanded opening, m³/s (2-D: m²/s), from the next step on. Throws Error for an opening that is not commanded, and for a value
+  /// that is not finite, negative, or faster than a tenth of the speed of sound.
+  void command_discharge(std::size_t opening, double discharge);
+  const std::vector<OpeningState>& openings() const;  ///< in the case's order
   const RigidWorld& bodies() const;
 
   SolverState state() const;

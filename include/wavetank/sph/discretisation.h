@@ -21,6 +21,7 @@ struct Discretisation {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the device's coordinates, m: kernels never see large ones
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();   ///< the watchdog's box, m
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  Box tank;        ///< bounding box of the tank's walls, without the pockets behind openings, m
   Top top;         ///< of the tank
   double rim = 0;  ///< coordinate of the tank's highest point along the axis of its top, m
   double sound_period =
@@ -32,7 +33,8 @@ struct Discretisation {
   double least_time_step = 0;  ///< a Δt below this has collapsed, s
 };
 
-/// The greatest speed that a case is expected to reach: of a free fall from the fluid's highest level to the tank's floor, m/s.
+/// The greatest speed that a case is expected to reach: of a free fall to the tank's floor from the fluid's highest level, or
+/// from the highest place of an opening that has water behind it, m/s.
 double expected_speed(const Case& checked, const Layout& layout);
 
 /// The case with its automatic values settled: sound speed, spacing, support. `fastest_wall`: the greatest speed expected of any wall, m/s.

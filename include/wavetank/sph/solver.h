@@ -21,6 +21,13 @@
 
 namespace wavetank {
 
+/// A particle that has left the water by a drain.
+struct LeftParticle {
+  std::uint32_t id = 0;
+  double mass = 0;                                     ///< kg (2-D: kg/m), exactly as the device had it
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
+};
+
 /// What one step reports to the host: the only thing that leaves the device in a step.
 struct StepReport {
   double time_step = 0;              ///< s, of the next step
@@ -32,6 +39,8 @@ struct StepReport {
   int guard_hits = 0;
   int shepard_bounded = 0;
   std::map<std::string, double> more;  ///< what rows that a case adds report, by their names
+  std::vector<double> let_in;          ///< kg (2-D: kg/m), of each particle that came in, in its order, exactly as the device has it
+  std::vector<LeftParticle> left;      ///< in the course of the step
   std::int64_t offender = -1;          ///< index of the first offending particle, or -1
   std::uint32_t offender_id = 0;
   Eigen::Vector3d offender_position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
@@ -48,9 +57,10 @@ struct PackingReport {
 
 /// The fluid at a point.
 struct PointValue {
-  double pressure = 0;  ///< Pa, gauge; 0 where dry
-  double filling = 0;   ///< Σ W V: 1 inside the fluid, 1/2 on its free surface
-  double shepard = 0;   ///< γ at the point
+  double pressure = 0;                                 ///< Pa, gauge; 0 where dry
+  double filling = 0;                                  ///< Σ W V: 1 inside the fluid, 1/2 on its free surface
+  double shepard = 0;                                  ///< γ at the point
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, the mean of the water about the point; 0 where dry
 };
 
 /// Points kept on the device, made by the solver that evaluates them.
@@ -156,6 +166,23 @@ struct Drain {
   Eigen::Matrix3d half_edges = Eigen::Matrix3d::Identity();  ///< m: columns, at right angles, from the centre to the middle of a face
 };
 
+/// A block of water, behind an opening, whose state is given: a box divided into columns along its normal.
+struct ImposedZone {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< m, of the box's front face, in the case's coordinates
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, out of the box through its front face
+  Eigen::Vector3d across = Eigen::Vector3d::UnitY();  ///< unit
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();      ///< unit
+  double depth = 0;                                   ///< m, against the normal
+  std::array<int, 2> cells{1, 1};                     ///< across and up
+  std::array<double, 2> cell_size{0, 0};              ///< m; across it may be 0 in 2-D
+  std::array<double, 2> first_edge{0, 0};             ///< m from the centre, of the first cell's outer edges
+  int layers = 1;                                     ///< into which the depth is divided
+  std::vector<double>
+      speed;  ///< m/s along the normal, by layer from the front, then cell, across fastest; none: what particles have is kept
+  std::vector<double> pressure;  ///< Pa, gauge, likewise
+  std::vector<char> is_free;     ///< of each cell of the front: what is behind it is no part of the zone; empty: none is so
+};
+
 /// What a sweep finds of the particles, in the order of FluidState.
 struct FluidSurface {
   std::vector<double> shepard;           ///< γ
@@ -197,6 +224,9 @@ class Solver {
   /// Particles that are in one of these at a step's end are no more in the water then; {}: none. After a call of this or of let_in
   /// snapshots of any number of particles are taken. Throws Error for a drain without size, or with edges that are not at right angles.
   virtual void set_drains(const std::vector<Drain>& drains) = 0;
+  /// From now on particles within these boxes keep their velocity and pressure, through packing and steps, and are not shifted; steps begin
+  /// with those that the zones' tables give, if they do. For a case with openings only. Throws Error for a table of another size.
+  virtual void set_zones(const std::vector<ImposedZone>& zones) = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
   virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;

@@ -38,6 +38,9 @@ Schedule schedule_of(const Case& scene, StepEngine* engine) {
   if (scene.numerics.shifting != Shifting::none)
     schedule.begin_with({"shifts by " + word_of(scene.numerics.shifting), state_of("now") + at("now", {"walls"}), at("now", {"shift"}),
                          [engine] { engine->find_shifts(); }, 0, true});
+  if (!scene.openings.empty())
+    schedule.begin_with({"water behind openings", state_of("now"), at("now", {"velocity", "compression", "pressure", "volume"}),
+                         [engine] { engine->impose_zones(); }});
   return schedule;
 }
 

@@ -31,6 +31,8 @@ class StepEngine {
   virtual void sort() = 0;
   /// δu of the state that is now, with which x changes beside u; held for the whole step.
   virtual void find_shifts() = 0;
+  /// The water behind openings gets the velocity and pressure that it is given.
+  virtual void impose_zones() = 0;
 
   // of the symplectic scheme
   virtual void drift_to_middle() = 0;
@@ -59,7 +61,7 @@ Schedule symplectic(StepEngine* engine);
 Schedule runge_kutta_4(StepEngine* engine);
 Schedule predictor_corrector(StepEngine* engine);
 
-/// The case's, with its shifting law.
+/// The case's, with its shifting law and its openings.
 Schedule schedule_of(const Case& scene, StepEngine* engine);
 
 /// What a state consists of, and what follows from it.

@@ -113,8 +113,7 @@ INLINE held_t hold_between(real at, real speed, real lower, real upper, real gua
 
 // Between the sides of the tank's bounding box, its top's axis left out.
 INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* state, long stride, int i) {
-  const real margin = R(0.5) * p->spacing;  // of the watchdog's box around the tank's
-  const real lower[3] = {p->lower_x, p->lower_y, p->lower_z}, upper[3] = {p->upper_x, p->upper_y, p->upper_z};
+  const real lower[3] = {p->tank_lower_x, p->tank_lower_y, p->tank_lower_z}, upper[3] = {p->tank_upper_x, p->tank_upper_y, p->tank_upper_z};
   const real period[3] = {p->period_x, p->period_y, p->period_z};
   bool hit = false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -124,7 +123,7 @@ INLINE bool hold_over_tank(__constant const parameters_t* p, __global real* stat
     if (axis == p->top_axis || period[axis] != R(0.0)) continue;
     __global real* at = state + (FIELD_X + axis) * stride + i;
     __global real* speed = state + (FIELD_U + axis) * stride + i;
-    const held_t held = hold_between(*at, *speed, lower[axis] + margin, upper[axis] - margin, p->guard_distance);
+    const held_t held = hold_between(*at, *speed, lower[axis], upper[axis], p->guard_distance);
     if (IS_LONG(axis)) {
       move(state, stride, axis, i, held.move);
     } else {

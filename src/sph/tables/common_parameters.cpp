@@ -89,6 +89,10 @@ std::vector<ParameterRow> make_rows() {
              [](const Source& s, int axis) { return s.discretisation.lower[axis] - s.discretisation.origin[axis]; });
   add_vector(rows, "upper", "m", "likewise",
              [](const Source& s, int axis) { return s.discretisation.upper[axis] - s.discretisation.origin[axis]; });
+  add_vector(rows, "tank_lower", "m", "the tank's bounding box, without the pockets behind openings",
+             [](const Source& s, int axis) { return s.discretisation.tank.min[axis] - s.discretisation.origin[axis]; });
+  add_vector(rows, "tank_upper", "m", "likewise",
+             [](const Source& s, int axis) { return s.discretisation.tank.max[axis] - s.discretisation.origin[axis]; });
   add_vector(rows, "period", "m", "of a periodic tank, else 0", period);
   for (int axis = 0; axis < 3; ++axis)
     rows.push_back(integer("cells_", "in one direction", [axis](const Source& s) { return s.discretisation.cells[axis]; }));

@@ -76,9 +76,19 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(barrier_edges, 4, "of a barrier") \
   ROW(barrier_count, 21, "plane n, o; the edges' planes m, o, with m·x + o not negative inside; the owner") \
   ROW(free_edge_count, 8, "base, direction, length, and 1, or 0 where another wall stands at it") \
-  /* images, drains, reductions */ \
+  /* images, drains, zones, reductions */ \
   ROW(image_count, 37, "values of a mirror or a period") \
   ROW(drain_count, 12, "centre, and three vectors along which its faces are at −1 and 1") \
+  /* zones whose water's state is imposed: a header each, and tables of cells */ \
+  ROW(zone_centre, 0, "m: of the front, x, y, z") \
+  ROW(zone_normal, 3, "out of the zone through its front") \
+  ROW(zone_across, 6, "vector in cells/m, of the first cell's edge in cells from the centre, number of cells") \
+  ROW(zone_up, 11, "likewise") \
+  ROW(zone_depth, 16, "m, behind the front") \
+  ROW(zone_layers, 17, "into which the depth is divided") \
+  ROW(zone_table, 18, "where its cells' values begin, or −1") \
+  ROW(zone_count, 19, "values of a zone") \
+  ROW(zone_cell_count, 4, "values of a cell: speed along the normal, pressure, compression, 1 if it is of the zone") \
   ROW(energy_count, 8, "kinetic, potential, of compression, mass, three moments of mass, and the acoustic damper's power") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")

@@ -1,13 +1,13 @@
-#include "motion_record.h"
+#include "wavetank/common/record_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <locale>
 #include <optional>
 #include <sstream>
 
-#include "number_text.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -38,6 +38,13 @@ std::vector<std::string> split(const std::string& line) {
   return values;
 }
 
+/// Six significant digits, for messages.
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 /// The same whatever language the process is set to.
 std::optional<double> number(const std::string& text) {
   std::istringstream stream(text);
@@ -49,7 +56,7 @@ std::optional<double> number(const std::string& text) {
 
 }  // namespace
 
-MotionRecord::MotionRecord(const std::string& path, const std::string& what) : path_(path), what_(what) {
+RecordFile::RecordFile(const std::string& path, const std::string& what, const std::string& kind) : path_(path), what_(what), kind_(kind) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(place(0) + " cannot be read");
   int line = 0;
@@ -71,17 +78,17 @@ MotionRecord::MotionRecord(const std::string& path, const std::string& what) : p
   if (names_.empty()) throw Error(place(0) + " has no header line with the columns' names");
   if (rows_.size() < 2) {
     throw Error(place(0) + " has " + std::to_string(rows_.size()) + (rows_.size() == 1 ? " line" : " lines") +
-                " of values after its header; a motion takes at least two");
+                " of values after its header; a " + kind_ + " takes at least two");
   }
 }
 
-std::string MotionRecord::place(int line) const {
-  return what_ + ": motion record file '" + path_ + "'" + (line > 0 ? ", line " + std::to_string(line) + "," : "");
+std::string RecordFile::place(int line) const {
+  return what_ + ": " + kind_ + " record file '" + path_ + "'" + (line > 0 ? ", line " + std::to_string(line) + "," : "");
 }
 
-bool MotionRecord::has(const std::string& column) const { return std::find(names_.begin(), names_.end(), column) != names_.end(); }
+bool RecordFile::has(const std::string& column) const { return std::find(names_.begin(), names_.end(), column) != names_.end(); }
 
-std::string MotionRecord::listed_columns() const {
+std::string RecordFile::listed_columns() const {
   std::string list;
   for (std::size_t k = 0; k < names_.size(); ++k) {
     if (k > 0) list += k + 1 < names_.size() ? ", " : " and ";
@@ -90,7 +97,7 @@ std::string MotionRecord::listed_columns() const {
   return list;
 }
 
-std::size_t MotionRecord::index_of(const std::string& column) const {
+std::size_t RecordFile::index_of(const std::string& column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end()) throw Error(place(header_line_) + " names no column '" + column + "'; it names " + listed_columns());
   if (std::find(found + 1, names_.end(), column) != names_.end())
@@ -98,7 +105,7 @@ std::size_t MotionRecord::index_of(const std::string& column) const {
   return static_cast<std::size_t>(found - names_.begin());
 }
 
-std::vector<double> MotionRecord::numbers(const std::string& column) const {
+std::vector<double> RecordFile::numbers(const std::string& column) const {
   const std::size_t index = index_of(column);
   std::vector<double> values;
   values.reserve(rows_.size());
@@ -110,12 +117,12 @@ std::vector<double> MotionRecord::numbers(const std::string& column) const {
   return values;
 }
 
-std::vector<double> MotionRecord::times(const std::string& column) const {
+std::vector<double> RecordFile::times(const std::string& column) const {
   std::vector<double> values = numbers(column);
   for (std::size_t k = 1; k < values.size(); ++k) {
     if (!(values[k] > values[k - 1])) {
-      throw Error(place(rows_[k].line) + " column '" + column + "': the time " + number_text(values[k]) + " s does not come after " +
-                  number_text(values[k - 1]) + " s; times must increase from line to line");
+      throw Error(place(rows_[k].line) + " column '" + column + "': the time " + brief(values[k]) + " s does not come after " +
+                  brief(values[k - 1]) + " s; times must increase from line to line");
     }
   }
   return values;

@@ -7,11 +7,11 @@ namespace wavetank {
 
 /// A file of comma-separated values: a header line with the columns' names, then lines of as many values. Lines that are empty or start
 /// with # do not count; spaces around names and values and quotes ("") around them are dropped.
-class MotionRecord {
+class RecordFile {
  public:
-  /// `what` opens the messages. Throws Error for a file that cannot be read, has no header or fewer than two lines of values, or a line of
-  /// another number of values than the header.
-  MotionRecord(const std::string& path, const std::string& what);
+  /// `what` opens the messages, `kind` ("motion") says in them what the record is of. Throws Error for a file that cannot be read, has no
+  /// header or fewer than two lines of values, or a line of another number of values than the header.
+  RecordFile(const std::string& path, const std::string& what, const std::string& kind);
 
   const std::vector<std::string>& columns() const { return names_; }
   bool has(const std::string& column) const;
@@ -32,7 +32,7 @@ class MotionRecord {
   };
   std::size_t index_of(const std::string& column) const;
 
-  std::string path_, what_;
+  std::string path_, what_, kind_;
   int header_line_ = 0;
   std::vector<std::string> names_;
   std::vector<Row> rows_;

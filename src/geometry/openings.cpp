@@ -1,0 +1,483 @@
+#include "openings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "polygon.h"
+#include "wavetank/common/error.h"
+#include "wavetank/common/expression.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double flat = 1e-3;           // of the spacing: what lies nearer to a plane is in it
+constexpr double narrowest = 2;         // spacings
+constexpr double sliver = 0.35;         // of a cell: less of one is given to its neighbour
+constexpr double beside_opening = 1.2;  // spacings: water so near to an opening's front stands before it
+
+std::string called(const Opening& opening) { return "opening '" + opening.name + "' at " + describe(opening.centre) + " m"; }
+
+// ---------------------------------------------------------------- place and lattice
+
+void set_frame(const OpeningCase& given, const Vector3d& against_gravity, int dimensions, Opening& opening) {
+  opening.centre = given.centre;
+  opening.normal = given.normal.normalized();
+  Vector3d up = given.up.value_or(against_gravity);
+  if (up.cross(opening.normal).norm() < 1e-3 * up.norm()) up = std::abs(opening.normal.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  if (dimensions == 2) up = std::abs(up.dot(opening.normal)) < 0.999 * up.norm() ? up : Vector3d::UnitX();
+  opening.up = (up - up.dot(opening.normal) * opening.normal).normalized();
+  opening.across = opening.up.cross(opening.normal);
+}
+
+void set_outline(const OpeningCase& given, int dimensions, double spacing, Opening& opening) {
+  const auto corner = [&](double across, double up) -> Vector3d { return opening.centre + across * opening.across + up * opening.up; };
+  if (given.diameter) {
+    const double pi = std::acos(-1.0), radius = 0.5 * *given.diameter;
+    opening.width = opening.height = *given.diameter;
+    const int sides = std::clamp(4 * static_cast<int>(std::lround(pi * radius / (2 * spacing))), 12, 64);
+    const double outer = radius * std::sqrt(2 * pi / (sides * std::sin(2 * pi / sides)));  // the disc's area
+    for (int k = 0; k < sides; ++k)
+      opening.outline.push_back(corner(outer * std::cos(2 * pi * (k + 0.5) / sides), outer * std::sin(2 * pi * (k + 0.5) / sides)));
+    return;
+  }
+  const double width = dimensions == 2 ? 0 : (*given.size)[0], height = (*given.size)[1];
+  opening.width = width;
+  opening.height = height;
+  if (dimensions == 2) {
+    opening.outline = {corner(0, -0.5 * height), corner(0, 0.5 * height)};
+    return;
+  }
+  for (const auto& [x, y] : {std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.5, 0.5), std::pair(-0.5, 0.5)})
+    opening.outline.push_back(corner(x * width, y * height));
+}
+
+/// Of the lattice, so that a level is between two of its rows.
+void set_cells(int axis, double length, double fitted, double spacing, Opening& opening) {
+  const double step = fitted / cells_in(fitted, spacing);
+  opening.first_edge[axis] = -0.5 * length;
+  opening.cell_size[axis] = step;
+  opening.cells[axis] = std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
+}
+
+/// The part of a cell that is within the outline: its area and its centre.
+Opening::Column part_of_cell(const Opening& opening, int i, int j) {
+  Opening::Column part;
+  const double low = opening.first_edge[1] + j * opening.cell_size[1];
+  if (opening.width == 0) {
+    const double high = std::min(low + opening.cell_size[1], 0.5 * opening.height);
+    part.area = high - low;
+    part.place = opening.centre + 0.5 * (low + high) * opening.up;
+    return part;
+  }
+  const double left = opening.first_edge[0] + i * opening.cell_size[0];
+  Polygon cell;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+    cell.push_back(opening.centre + (left + x * opening.cell_size[0]) * opening.across + (low + y * opening.cell_size[1]) * opening.up);
+  const std::size_t sides = opening.outline.size();
+  for (std::size_t k = 0; k < sides && !cell.empty(); ++k) {
+    const Vector3d edge = opening.outline[(k + 1) % sides] - opening.outline[k];
+    const Vector3d outwards = edge.cross(opening.normal).normalized();
+    cell = part_below(cell, outwards, outwards.dot(opening.outline[k]), 1e-9 * opening.height);
+  }
+  if (cell.size() < 3) return part;
+  part.area = vector_area(cell).norm();
+  part.place = centroid(cell);
+  return part;
+}
+
+/// Columns of about a cell; slivers at the edge of the outline go to the fullest cell beside them, on their side of the level.
+void set_columns(const std::function<bool(const Vector3d&)>& is_high, Opening& opening) {
+  const auto [across, up] = opening.cells;
+  std::vector<Opening::Column> parts;
+  for (int j = 0; j < up; ++j)
+    for (int i = 0; i < across; ++i) parts.push_back(part_of_cell(opening, i, j));
+  const double whole = opening.cell_size[1] * (opening.width == 0 ? 1.0 : opening.cell_size[0]);
+  const auto beside = [&](int i, int j) {
+    const int own = j * across + i;
+    int best = -1;
+    for (int dj = -1; dj <= 1; ++dj)
+      for (int di = -1; di <= 1; ++di) {
+        if (i + di < 0 || i + di >= across || j + dj < 0 || j + dj >= up || (di == 0 && dj == 0)) continue;
+        const int other = (j + dj) * across + i + di;
+        if (parts[other].area < sliver * whole || (parts[own].area > 0 && is_high(parts[own].place) != is_high(parts[other].place)))
+          continue;
+        if (best < 0 || parts[other].area > parts[best].area * (1 + 1e-9)) best = other;
+      }
+    return best;
+  };
+  std::vector<int> goes_to(parts.size());
+  for (int j = 0; j < up; ++j)
+    for (int i = 0; i < across; ++i) {
+      const int own = j * across + i, other = parts[own].area < sliver * whole ? beside(i, j) : -1;
+      goes_to[own] = other < 0 ? own : other;
+    }
+  opening.column_of.assign(parts.size(), -1);
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    if (goes_to[c] != static_cast<int>(c) || parts[c].area <= 0) continue;
+    opening.column_of[c] = static_cast<int>(opening.columns.size());
+    opening.columns.push_back(parts[c]);
+  }
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    if (opening.column_of[c] >= 0) continue;
+    opening.column_of[c] = goes_to[c] == static_cast<int>(c) ? 0 : opening.column_of[goes_to[c]];
+    if (goes_to[c] == static_cast<int>(c) || parts[c].area <= 0) continue;
+    Opening::Column& column = opening.columns[opening.column_of[c]];
+    const double area = column.area + parts[c].area;
+    column.place = (column.area * column.place + parts[c].area * parts[c].place) / area;
+    column.area = area;
+  }
+  for (const Opening::Column& column : opening.columns) opening.area += column.area;
+}
+
+/// The water of the fill before an opening.
+struct WaterBefore {
+  struct Particle {
+    Vector3d place;
+    double level = 0;  ///< m along `up`
+  };
+  std::vector<Particle> particles;
+
+  const Particle* nearest(const Vector3d& place, double radius) const {
+    const Particle* found = nullptr;
+    double least = radius;
+    for (const Particle& particle : particles) {
+      const double distance = (particle.place - place).norm();
+      if (distance < least) least = distance, found = &particle;
+    }
+    return found;
+  }
+};
+
+WaterBefore water_before(const Opening& opening, double spacing, const std::vector<FilledRegion>& regions, const Vector3d& up) {
+  WaterBefore water;
+  for (const FilledRegion& region : regions)
+    for (std::size_t c = 0; c < region.filled.size(); ++c) {
+      if (!region.filled[c]) continue;
+      const Vector3d way = region.position[c] - opening.centre;
+      const double before = opening.normal.dot(way);
+      if (before < 0 || before > beside_opening * spacing || (way - before * opening.normal).norm() > opening.width + opening.height)
+        continue;
+      const double level = region.surface.normal == up ? region.surface.height : up.dot(region.position[c]);
+      water.particles.push_back({region.position[c], level});
+    }
+  return water;
+}
+
+/// Whether water beyond the opening is there at the start whatever is before it, at a height along `up`, m; a record is taken to hold it.
+bool held_from_beyond(const OpeningCase& given, double height, int way) {
+  if (given.kind == OpeningKind::outlet) return given.level && height < way * *given.level;
+  if (given.kind != OpeningKind::pressure) return false;
+  return given.head.empty() || height < way * Expression(given.head, Expression::Of::time).at(0.0);
+}
+
+Opening place_opening(const OpeningCase& given, const Case& checked, const Basin& basin, double spacing,
+                      const std::vector<FilledRegion>& regions) {
+  Opening opening;
+  opening.name = given.name;
+  for (std::size_t b = 0; b < checked.bodies.size(); ++b)
+    if (checked.bodies[b].name == given.body) opening.owner = static_cast<int>(b) + 1;
+  set_frame(given, basin.up, checked.dimensions, opening);
+  set_outline(given, checked.dimensions, spacing, opening);
+  if (opening.height < narrowest * spacing || (checked.dimensions == 3 && opening.width < narrowest * spacing))
+    throw Error(called(opening) + " is narrower than two spacings of " + describe(spacing) +
+                " m; make it larger, or fluid/spacing smaller");
+  const double support = checked.numerics.support.value_or(checked.dimensions == 2 ? 4.0 : 3.0);
+  opening.rows = static_cast<int>(std::ceil(support - 1e-9)) + 1;
+  opening.depth = opening.rows * spacing;
+  opening.pocket = opening.depth + spacing;
+
+  const bool along_axis = basin.up == basin.top.normal();
+  if (!along_axis && (given.level || given.kind == OpeningKind::pressure))
+    throw Error(called(opening) + " has a level or a head, which is for gravity along an axis; leave it out");
+  const auto height_of = [&](const Vector3d& place) { return basin.up.dot(place); };
+  const auto along_up = [&](double coordinate) { return basin.top.way * coordinate; };
+  const WaterBefore water = water_before(opening, spacing, regions, basin.up);
+
+  std::optional<double> level;  // along `up`, that the lattice is fitted to
+  if (given.level) {
+    level = along_up(*given.level);
+  } else if (given.kind != OpeningKind::inlet) {
+    for (const WaterBefore::Particle& particle : water.particles) level = std::max(level.value_or(particle.level), particle.level);
+  }
+  const double bottom = height_of(opening.centre) - 0.5 * opening.height;
+  const bool upright = opening.up.dot(basin.up) > 1 - 1e-9 && !given.diameter;
+  const bool fits = level && upright && *level > bottom + 0.5 * spacing && *level < bottom + opening.height;
+  set_cells(1, opening.height, fits ? *level - bottom : opening.height, spacing, opening);
+  if (checked.dimensions == 3) set_cells(0, opening.width, opening.width, spacing, opening);
+  set_columns([&](const Vector3d& place) { return fits && height_of(place) > *level; }, opening);
+
+  for (Opening::Column& column : opening.columns) {
+    const double height = height_of(column.place);
+    if (given.kind == OpeningKind::inlet) {
+      column.wet = !given.level || height < along_up(*given.level);
+    } else {
+      const WaterBefore::Particle* before = water.nearest(column.place + 0.5 * spacing * opening.normal, spacing);
+      column.wet = (before != nullptr && height < before->level) || held_from_beyond(given, height, basin.top.way);
+    }
+  }
+  return opening;
+}
+
+// ---------------------------------------------------------------- pockets
+
+struct Side {
+  Vector3d normal;  ///< out of the pocket
+  double offset;
+};
+
+/// The pocket's sides, without front and back; in 2-D the lower and the upper one.
+std::vector<Side> lateral_sides(const Opening& opening) {
+  if (opening.width == 0) {
+    return {{-opening.up, -opening.up.dot(opening.outline[0])}, {opening.up, opening.up.dot(opening.outline[1])}};
+  }
+  std::vector<Side> sides;
+  const std::size_t count = opening.outline.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3d outwards = (opening.outline[(k + 1) % count] - opening.outline[k]).cross(opening.normal).normalized();
+    sides.push_back({outwards, outwards.dot(opening.outline[k])});
+  }
+  return sides;
+}
+
+/// With a front a little before the opening's plane, so that the wall itself is within.
+std::vector<Side> sides_of_pocket(const Opening& opening, double spacing) {
+  std::vector<Side> sides = lateral_sides(opening);
+  const double at = opening.normal.dot(opening.centre);
+  sides.push_back({opening.normal, at + 2 * flat * spacing});
+  sides.push_back({-opening.normal, -(at - opening.pocket)});
+  return sides;
+}
+
+bool in_plane(const Opening& opening, const Vector3d& point, double spacing) {
+  return std::abs(opening.normal.dot(point - opening.centre)) <= flat * spacing;
+}
+
+/// In the lattice; row −1 is before the opening.
+Vector3d in_row(const Opening& opening, const Opening::Column& column, int k, double spacing) {
+  return column.place - (k + 0.5) * spacing * opening.normal;
+}
+
+[[noreturn]] void throw_off_wall(const Opening& opening, double found, const std::string& whose, bool is_2d) {
+  const std::string unit = is_2d ? " m" : " m²";
+  throw Error(called(opening) + " does not lie in a flat wall of " + whose + ": of its " + describe(opening.area) + unit + ", " +
+              describe(found) + unit + " are on one with that normal; all of it must be");
+}
+
+// ---------------------------------------------------------------- 2-D
+
+/// Takes out what of the outline lies in the pocket; returns how much of it was in the opening's plane, m.
+double cut_outline(Outline& outline, const Opening& opening, double spacing) {
+  const std::vector<Side> sides = sides_of_pocket(opening, spacing);
+  Outline result;
+  double removed = 0;
+  for (const Polyline& line : outline) {
+    const std::size_t count = line.points.size(), segments = line.closed ? count : count - 1;
+    std::vector<Polyline> pieces(1);
+    bool cut = false;
+    const auto add = [&](const Vector3d& point) {
+      std::vector<Vector3d>& points = pieces.back().points;
+      if (points.empty() || (points.back() - point).norm() > 1e-9 * opening.height) points.push_back(point);
+    };
+    add(line.points[0]);
+    for (std::size_t k = 0; k < segments; ++k) {
+      const Vector3d &from = line.points[k], &to = line.points[(k + 1) % count];
+      double enter = 0, leave = 1;
+      for (const Side& side : sides) {
+        const double a = side.normal.dot(from) - side.offset, b = side.normal.dot(to) - side.offset;
+        const double margin = 1e-6 * spacing;  // along a side is outside
+        if (a > -margin && b > -margin) enter = 2;
+        if (a > -margin && b <= -margin) enter = std::max(enter, a / (a - b));
+        if (a <= -margin && b > -margin) leave = std::min(leave, a / (a - b));
+      }
+      if (enter < leave) {
+        const Vector3d in = from + enter * (to - from), out = from + leave * (to - from);
+        if (in_plane(opening, from, spacing) && in_plane(opening, to, spacing)) removed += (out - in).norm();
+        add(in);
+        pieces.emplace_back();
+        add(out);
+        cut = true;
+      }
+      add(to);
+    }
+    if (!cut) {
+      result.push_back(line);
+      continue;
+    }
+    if (line.closed && pieces.size() > 1) {  // the last piece goes on into the first
+      Polyline& last = pieces.back();
+      last.points.insert(last.points.end(), pieces.front().points.begin() + 1, pieces.front().points.end());
+      pieces.erase(pieces.begin());
+    }
+    for (Polyline& piece : pieces)
+      if (piece.points.size() > 1) result.push_back(std::move(piece));
+  }
+  outline = std::move(result);
+  return removed;
+}
+
+// ---------------------------------------------------------------- 3-D
+
+int vertex_at(TriangleMesh& mesh, const Vector3d& point, double tolerance) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if ((mesh.vertices[v] - point).norm() <= tolerance) return static_cast<int>(v);
+  mesh.vertices.push_back(point);
+  return static_cast<int>(mesh.vertices.size()) - 1;
+}
+
+void add_polygon(TriangleMesh& mesh, const Polygon& polygon, double tolerance) {
+  std::vector<int> corners;
+  for (const Vector3d& point : polygon) corners.push_back(vertex_at(mesh, point, tolerance));
+  for (const Eigen::Vector3i& t : triangulate(polygon)) {
+    const Vector3i triangle(corners[t[0]], corners[t[1]], corners[t[2]]);
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) mesh.triangles.push_back(triangle);
+  }
+}
+
+/// Likewise, m².
+double cut_mesh(TriangleMesh& mesh, const Opening& opening, double spacing) {
+  const std::vector<Side> sides = sides_of_pocket(opening, spacing);
+  const double tolerance = 1e-6 * spacing;
+  std::vector<Vector3i> whole;
+  std::vector<Polygon> kept;
+  double removed = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Polygon inside{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    const bool flat_on = std::all_of(inside.begin(), inside.end(), [&](const Vector3d& c) { return in_plane(opening, c, spacing); });
+    std::vector<Polygon> outside;
+    for (const Side& side : sides) {
+      if (inside.empty()) break;
+      Polygon beyond = part_below(inside, -side.normal, -side.offset, tolerance);
+      inside = part_below(inside, side.normal, side.offset, tolerance);
+      if (beyond.size() > 2 && !inside.empty()) outside.push_back(std::move(beyond));
+    }
+    const double area = inside.size() > 2 ? vector_area(inside).norm() : 0.0;
+    if (area <= 1e-9 * opening.area) {
+      whole.push_back(mesh.triangles[t]);
+      continue;
+    }
+    if (flat_on) removed += area;
+    kept.insert(kept.end(), outside.begin(), outside.end());
+  }
+  mesh.triangles = std::move(whole);
+  for (const Polygon& piece : kept) add_polygon(mesh, piece, tolerance);
+  return removed;
+}
+
+void add_pocket(TriangleMesh& mesh, const Opening& opening, double spacing) {
+  const Vector3d back = -opening.pocket * opening.normal;
+  const std::size_t count = opening.outline.size();
+  Polygon cap;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3d &a = opening.outline[k], &b = opening.outline[(k + 1) % count];
+    add_polygon(mesh, {a, b, b + back, a + back}, 1e-6 * spacing);
+    cap.push_back(a + back);
+  }
+  add_polygon(mesh, cap, 1e-6 * spacing);
+}
+
+}  // namespace
+
+void check_overlaps(const std::vector<Opening>& openings, double spacing) {
+  for (std::size_t o = 0; o < openings.size(); ++o)
+    for (std::size_t other = 0; other < openings.size(); ++other) {
+      if (other == o) continue;
+      const std::vector<Side> sides = sides_of_pocket(openings[other], spacing);
+      for (const Opening::Column& column : openings[o].columns)
+        for (int k = 0; k <= openings[o].rows; ++k) {
+          const Vector3d place = in_row(openings[o], column, k, spacing);
+          if (!std::all_of(sides.begin(), sides.end(), [&](const Side& side) { return side.normal.dot(place) < side.offset; })) continue;
+          throw Error(called(openings[o]) + " overlaps opening '" + openings[other].name + "', or the pockets of " +
+                      describe(openings[o].pocket) + " m behind them do, about " + describe(place) + " m; move one of them");
+        }
+    }
+}
+
+std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions) {
+  std::vector<Opening> openings;
+  for (const OpeningCase& given : checked.openings) openings.push_back(place_opening(given, checked, basin, spacing, regions));
+  return openings;
+}
+
+void check_openings(const std::vector<Opening>& openings, const Basin& basin, const OpenSpace& closed, double spacing) {
+  for (const Opening& opening : openings) {
+    const std::string behind = called(opening) + " takes a pocket of " + describe(opening.pocket) + " m behind it, which ";
+    for (const Opening::Column& column : opening.columns) {
+      const Vector3d front = in_row(opening, column, -1, spacing);
+      for (const Solid& solid : basin.solids)
+        if (solid.contains(front))
+          throw Error(called(opening) + " opens into body '" + solid.name +
+                      "'; water must be able to come to it from the side of its normal");
+      if (!closed.reached(front, front))
+        throw Error(called(opening) + " opens where no water can come to, about " + describe(front) +
+                    " m; its normal must point into the water");
+      for (int k = 0; k <= opening.rows; ++k) {
+        const Vector3d place = in_row(opening, column, k, spacing);
+        if (closed.reached(place, place))
+          throw Error(behind + "meets the space that water can reach, about " + describe(place) +
+                      " m; there must be nothing behind an "
+                      "opening but what is solid, or the outside of the tank");
+        for (std::size_t b = 0; b < basin.solids.size(); ++b)
+          if (static_cast<int>(b) + 1 != opening.owner && basin.solids[b].contains(place))
+            throw Error(behind + "meets body '" + basin.solids[b].name + "' about " + describe(place) + " m; move one of them");
+      }
+    }
+  }
+}
+
+std::vector<Vector3d> fronts_of(const std::vector<Opening>& openings, double spacing) {
+  std::vector<Vector3d> fronts;
+  for (const Opening& opening : openings)
+    for (const Opening::Column& column : opening.columns) fronts.push_back(in_row(opening, column, -1, spacing));
+  return fronts;
+}
+
+void open_outline(Outline& outline, const std::vector<Opening>& openings, double spacing, const std::string& whose) {
+  for (const Opening& opening : openings) {
+    const double removed = cut_outline(outline, opening, spacing);
+    if (removed < (1 - 1e-3) * opening.area) throw_off_wall(opening, removed, whose, true);
+  }
+  for (const Opening& opening : openings) {
+    const Vector3d back = -opening.pocket * opening.normal;
+    outline.push_back({{opening.outline[0], opening.outline[0] + back, opening.outline[1] + back, opening.outline[1]}, false});
+  }
+}
+
+void open_mesh(TriangleMesh& mesh, const std::vector<Opening>& openings, double spacing, const std::string& whose) {
+  for (const Opening& opening : openings) {
+    const double removed = cut_mesh(mesh, opening, spacing);
+    if (removed < (1 - 1e-3) * opening.area) throw_off_wall(opening, removed, whose, false);
+  }
+  for (const Opening& opening : openings) add_pocket(mesh, opening, spacing);
+}
+
+Box with_pockets(Box box, const std::vector<Opening>& openings, int dimensions) {
+  for (const Opening& opening : openings)
+    for (const Vector3d& corner : opening.outline)
+      for (const Vector3d& point : {corner, Vector3d(corner - opening.pocket * opening.normal)}) {
+        box.min = box.min.cwiseMin(point);
+        box.max = box.max.cwiseMax(point);
+      }
+  if (dimensions == 2) box.min.y() = box.max.y() = 0;
+  return box;
+}
+
+void add_water_beyond(const std::vector<FilledRegion>& regions, Layout& layout) {
+  const std::size_t before_all = layout.particles.size();
+  for (const Opening& opening : layout.openings) {
+    const WaterBefore water = water_before(opening, layout.spacing, regions, layout.up);
+    for (int k = 0; k < opening.rows; ++k)
+      for (const Opening::Column& column : opening.columns) {
+        if (!column.wet) continue;
+        const Vector3d place = in_row(opening, column, k, layout.spacing);
+        const WaterBefore::Particle* before = water.nearest(column.place, 3 * layout.spacing);
+        layout.particles.push_back(place);
+        layout.volumes.push_back(column.area * layout.spacing);
+        layout.levels.push_back(before != nullptr ? before->level : layout.up.dot(place));
+      }
+  }
+  layout.beyond = layout.particles.size() - before_all;
+}
+
+}  // namespace wavetank

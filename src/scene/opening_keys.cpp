@@ -1,0 +1,203 @@
+#include "opening_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion_values.h"
+#include "wavetank/common/expression.h"
+
+namespace wavetank::scene {
+namespace {
+
+/// A section that may be left out as a whole.
+template <class T>
+Codec<std::optional<T>> section_if_given(const Section<T>& section) {
+  Codec<std::optional<T>> codec = if_given(section_of(section));
+  codec.holds = Holds::section;
+  codec.children = section.descriptions();
+  return codec;
+}
+
+Codec<std::array<double, 2>> rectangle_size() {
+  return {"[width, height]", "each greater than 0; in 2-D the width is not used",
+          [](const Setting& setting, const Item& item, Context& context) {
+            const std::vector<double> numbers = numbers_of(setting, item, 2, 2, "2 numbers [width, height]");
+            const bool flat = context.dimensions == 2;
+            if (!(numbers[1] > 0) || (!flat && !(numbers[0] > 0))) refuse(setting, item, "greater than 0 in either direction");
+            return std::array<double, 2>{numbers[0], numbers[1]};
+          },
+          [](const std::array<double, 2>& value, const Context&) -> std::optional<Setting> {
+            return list_of_numbers({value[0], value[1]});
+          }};
+}
+
+Section<FlowRecordCase> record_section() {
+  Section<FlowRecordCase> section;
+  section
+      .key("file", &FlowRecordCase::file, nonempty_text(), "",
+           "Comma-separated values below one line of column names: package://, file://, an absolute path, or one relative to the case "
+           "file. Followed in straight lines, held before its first time and after its last.")
+      .required = true;
+  section.key(
+      "quantity", &FlowRecordCase::quantity,
+      choice<FlowQuantity>({{"discharge", FlowQuantity::discharge}, {"velocity", FlowQuantity::velocity}, {"head", FlowQuantity::head}}),
+      "", "What the column is of: of an inlet `discharge` or `velocity`, of an outlet `discharge`, of a pressure `head`.");
+  section.key("time_column", &FlowRecordCase::time_column, nonempty_text(), "", "Name of the column of times (s), which increase.");
+  section.key("column", &FlowRecordCase::column, text(), "", "Name of the column that is followed; empty: that named as the quantity.");
+  section.key("factor", &FlowRecordCase::factor, number({}), "m³/s, m/s or m", "By which the column is multiplied.");
+  section.key("delay", &FlowRecordCase::delay, number({}), "s", "Added to the file's times.");
+  return section;
+}
+
+Section<FlowCommandCase> command_section() {
+  Section<FlowCommandCase> section;
+  section.key("greatest_discharge", &FlowCommandCase::greatest_discharge, number_or_none(greater_than(0)), "m³/s",
+              "Limit of the discharge; in 2-D a metre of width (m²/s).");
+  section.key("greatest_rate", &FlowCommandCase::greatest_rate, number_or_none(greater_than(0)), "m³/s²",
+              "At which the discharge goes over to the one commanded; `none`: at once.");
+  section.key("timeout", &FlowCommandCase::timeout, number(at_least(0)), "s",
+              "Of simulated time without a command, after which the discharge goes to zero; 0 = never.");
+  return section;
+}
+
+std::string word_of(OpeningKind kind) { return kind == OpeningKind::inlet ? "inlet" : kind == OpeningKind::outlet ? "outlet" : "pressure"; }
+
+std::string word_of(FlowQuantity quantity) {
+  return quantity == FlowQuantity::discharge ? "discharge" : quantity == FlowQuantity::velocity ? "velocity" : "head";
+}
+
+/// Which of the laws are given, of which a kind has its own.
+void check_law(const OpeningCase& opening, const Setting& map, const std::string& path) {
+  struct Law {
+    const char* key;
+    bool given;
+    std::vector<OpeningKind> kinds;
+  };
+  const std::vector<Law> laws{{"velocity", !opening.velocity.empty(), {OpeningKind::inlet}},
+                              {"discharge", !opening.discharge.empty(), {OpeningKind::inlet, OpeningKind::outlet}},
+                              {"head", !opening.head.empty(), {OpeningKind::pressure}},
+                              {"record", opening.record.has_value(), {OpeningKind::inlet, OpeningKind::outlet, OpeningKind::pressure}},
+                              {"command", opening.command.has_value(), {OpeningKind::inlet, OpeningKind::outlet}},
+                              {"level", opening.level && opening.kind == OpeningKind::outlet, {OpeningKind::outlet}}};
+  const std::string kind = word_of(opening.kind);
+  std::string allowed, first;
+  for (const Law& law : laws)
+    if (std::find(law.kinds.begin(), law.kinds.end(), opening.kind) != law.kinds.end())
+      allowed += (allowed.empty() ? "" : ", ") + std::string(law.key);
+  for (const Law& law : laws) {
+    if (!law.given) continue;
+    if (std::find(law.kinds.begin(), law.kinds.end(), opening.kind) == law.kinds.end())
+      refuse_key(map, path, law.key, "is not for an opening of kind " + kind + ", which has " + allowed + "; leave it out");
+    if (!first.empty()) refuse_key(map, path, law.key, "is given as well as " + first + "; give one of " + allowed);
+    first = law.key;
+  }
+  if (first.empty() && opening.kind != OpeningKind::outlet)
+    throw Error(map.place.describe() + ": " + path + " is an opening of kind " + kind + " without a law; give one of " + allowed);
+  if (opening.level && opening.kind == OpeningKind::pressure)
+    refuse_key(map, path, "level", "is not for an opening of kind pressure; give head");
+  if (opening.record) {
+    const FlowQuantity quantity = opening.record->quantity;
+    const bool fits = opening.kind == OpeningKind::pressure ? quantity == FlowQuantity::head
+                                                            : quantity == FlowQuantity::discharge || (quantity == FlowQuantity::velocity &&
+                                                                                                      opening.kind == OpeningKind::inlet);
+    if (!fits)
+      refuse_key(map, path, "record/quantity",
+                 "is " + word_of(quantity) + ", which an opening of kind " + kind + " does not follow; it must be " +
+                     (opening.kind == OpeningKind::pressure ? "head"
+                      : opening.kind == OpeningKind::inlet  ? "discharge or velocity"
+                                                            : "discharge"));
+  }
+}
+
+/// What an expression gives at the start, where a sign that is not allowed is seen before anything is made of the case.
+void check_start(const std::string& text, const std::string& key, const std::string& unit, const Setting& map, const std::string& path,
+                 bool may_be_negative) {
+  if (text.empty()) return;
+  const double value = Expression(text, Expression::Of::time).at(0.0);
+  const Item item{join_path(path, key), unit};
+  if (!std::isfinite(value)) refuse(*map.find(key), item, "finite at t = 0");
+  if (value < 0 && !may_be_negative) refuse(*map.find(key), item, "at least 0, also as an expression of t");
+}
+
+void check_shape(const OpeningCase& opening, const Setting& map, const std::string& path, const Context& context) {
+  if (opening.normal.isZero(0.0)) refuse_vector(map, path, "normal", opening.normal, "a direction into the water, not all 0");
+  if (context.dimensions == 2 && opening.normal.y() != 0)
+    refuse_vector(map, path, "normal", opening.normal, "within the x–z plane of a 2-D case, [x, z]");
+  if (context.dimensions == 2 && opening.diameter)
+    refuse_key(map, path, "diameter", "is for 3-D cases; in 2-D an opening is a slot: give size: [width, height], whose width is not used");
+  if (opening.diameter && opening.up) refuse_key(map, path, "up", "is for rectangles; leave it out of a disc");
+  if (opening.up && opening.up->cross(opening.normal).norm() <= 1e-6 * opening.up->norm() * opening.normal.norm())
+    refuse_key(map, path, "up", "is along " + join_path(path, "normal") + "; it must be a direction within the opening");
+  if (opening.profile != FlowProfile::uniform && (opening.kind == OpeningKind::pressure || opening.level))
+    refuse_key(map, path, "profile",
+               "is parabolic, which is for inlets and outlets that are full, of a given velocity or discharge; "
+               "leave it out");
+}
+
+}  // namespace
+
+Section<OpeningCase> opening_section() {
+  Section<OpeningCase> section;
+  section.key("name", &OpeningCase::name, name(), "", "Part of the names of the opening's topics; its own among all that have names.")
+      .required = true;
+  section
+      .key("kind", &OpeningCase::kind,
+           choice<OpeningKind>({{"inlet", OpeningKind::inlet}, {"outlet", OpeningKind::outlet}, {"pressure", OpeningKind::pressure}}), "",
+           "`inlet`: water comes in by `velocity`, `discharge`, `record` or `command`. `outlet`: it leaves, freely unless there is a "
+           "`level`, `discharge`, `record` or `command`. `pressure`: it stands under `head` or `record` beyond, and flows either way.")
+      .required = true;
+  section.key("body", &OpeningCase::body, text(), "", "The body in whose wall the opening is; it must be fixed. Empty: the tank.");
+  section.key("centre", &OpeningCase::centre, position(), "m", "On the wall.").required = true;
+  section.key("normal", &OpeningCase::normal, vector(), "", "Direction at right angles to the wall, into the water; of any length.")
+      .required = true;
+  section.key("size", &OpeningCase::size, if_given(rectangle_size()), "m", "Of a rectangle.").required = true;
+  section.key("diameter", &OpeningCase::diameter, number_if_given(greater_than(0)), "m", "Of a disc, in 3-D.").required = true;
+  section.exactly_one_of({{"size"}, {"diameter"}});
+  section.key("up", &OpeningCase::up, if_given(vector()), "",
+              "Direction of the height of `size`; if it is left out, against gravity, or along x where that is the normal's.");
+  section.key("velocity", &OpeningCase::velocity, expression(Expression::Of::time), "m/s",
+              "Of an inlet: the mean over the water that comes in, a number or an expression of t (s).");
+  section.key("discharge", &OpeningCase::discharge, expression(Expression::Of::time), "m³/s",
+              "Into the tank of an inlet, out of it of an outlet, a number or an expression of t (s); in 2-D a metre of width (m²/s).");
+  section.key("head", &OpeningCase::head, expression(Expression::Of::time), "m",
+              "Of a pressure: the height (z) that water beyond the opening would stand to, a number or an expression of t (s).");
+  section.key("record", &OpeningCase::record, section_if_given(record_section()), "", "Discharge, velocity or head from a file.");
+  section.key("command", &OpeningCase::command, section_if_given(command_section()), "",
+              "The discharge is commanded while it runs, and nothing flows before; limits on it, or {}.");
+  section.key("profile", &OpeningCase::profile,
+              choice<FlowProfile>({{"uniform", FlowProfile::uniform}, {"parabolic", FlowProfile::parabolic}}), "",
+              "Of the velocity, where velocity or discharge is given: even, or as in a pipe, zero at the opening's edges.");
+  section.key("level", &OpeningCase::level, number_if_given({}), "m",
+              "Height (z) of a free surface: of an inlet, that of the water that comes in, which is less than full; beyond an outlet, "
+              "against which water leaves or comes back.");
+  section.rule([](const OpeningCase& opening, const Setting& map, const std::string& path, const Context& context) {
+    check_shape(opening, map, path, context);
+    check_law(opening, map, path);
+    check_start(opening.velocity, "velocity", "m/s", map, path, false);
+    check_start(opening.discharge, "discharge", context.dimensions == 2 ? "m²/s" : "m³/s", map, path, false);
+    check_start(opening.head, "head", "m", map, path, true);
+  });
+  return section;
+}
+
+void check_openings(const Case& read, const Setting& root) {
+  for (std::size_t i = 0; i < read.openings.size(); ++i) {
+    const OpeningCase& opening = read.openings[i];
+    const std::string path = join_path("openings", i);
+    const auto clash = [&](const std::string& key, const std::string& text) {
+      throw Error(nearest_setting(root, join_path(path, key)).place.describe() + ": " + join_path(path, key) + " is " + text);
+    };
+    if (read.numerics.walls.method == WallMethod::ghost)
+      clash("kind",
+            word_of(opening.kind) + ", and numerics/walls/method is ghost, whose mirrors know no openings; choose boundary_integral");
+    if (read.tank.motion != Motion::fixed)
+      clash("kind", word_of(opening.kind) + ", and tank/motion is not fixed; openings are for tanks that stand");
+    if (opening.body.empty()) continue;
+    const auto found =
+        std::find_if(read.bodies.begin(), read.bodies.end(), [&](const BodyCase& body) { return body.name == opening.body; });
+    if (found == read.bodies.end()) clash("body", opening.body + ", which is no body of the case; leave it out for the tank");
+    if (found->motion != Motion::fixed) clash("body", opening.body + ", which moves; openings are for bodies that are fixed");
+  }
+}
+
+}  // namespace wavetank::scene

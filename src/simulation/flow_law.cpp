@@ -1,0 +1,118 @@
+#include "flow_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "texts.h"
+#include "wavetank/common/error.h"
+#include "wavetank/common/expression.h"
+#include "wavetank/common/record_file.h"
+#include "wavetank/scene/file_path.h"
+
+namespace wavetank {
+namespace {
+
+const char* word_of(FlowQuantity quantity) {
+  return quantity == FlowQuantity::discharge ? "discharge" : quantity == FlowQuantity::velocity ? "velocity" : "head";
+}
+
+/// In straight lines between the points; held at the ends.
+std::function<double(double)> lines_through(std::vector<double> times, std::vector<double> values) {
+  return [times = std::move(times), values = std::move(values)](double time) {
+    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    if (after == times.begin()) return values.front();
+    if (after == times.end()) return values.back();
+    const auto k = static_cast<std::size_t>(after - times.begin());
+    const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
+    return values[k - 1] + share * (values[k] - values[k - 1]);
+  };
+}
+
+std::function<double(double)> recorded(const FlowRecordCase& record, const std::string& what, const std::string& case_directory,
+                                       const ResourceResolver& resolve) {
+  std::string path;
+  try {
+    path = file_path("flow record", record.file, case_directory, resolve);
+    check_file("flow record", path);
+  } catch (const Error& error) {
+    throw Error(what + ": " + error.what());
+  }
+  const RecordFile file(path, what, "flow");
+  std::vector<double> times = file.times(record.time_column);
+  std::vector<double> values = file.numbers(record.column.empty() ? word_of(record.quantity) : record.column);
+  for (double& time : times) time += record.delay;
+  for (double& value : values) value *= record.factor;
+  return lines_through(std::move(times), std::move(values));
+}
+
+}  // namespace
+
+FlowLaw::FlowLaw(const OpeningCase& opening, const std::string& case_directory, const ResourceResolver& resolve) : name_(opening.name) {
+  if (opening.record) {
+    quantity_ = opening.record->quantity;
+    value_ = recorded(*opening.record, "opening '" + name_ + "'", case_directory, resolve);
+    return;
+  }
+  const auto take = [&](const std::string& text, FlowQuantity quantity) {
+    if (text.empty()) return;
+    quantity_ = quantity;
+    const auto expression = std::make_shared<Expression>(text, Expression::Of::time);
+    value_ = [expression](double time) { return expression->at(time); };
+  };
+  take(opening.discharge, FlowQuantity::discharge);
+  take(opening.velocity, FlowQuantity::velocity);
+  take(opening.head, FlowQuantity::head);
+}
+
+double FlowLaw::at(double time) const {
+  const double value = value_(time);
+  if (!std::isfinite(value) || (value < 0 && quantity_ != FlowQuantity::head))
+    throw Error("opening '" + name_ + "': its " + word_of(*quantity_) + " at t = " + number(time) + " s is " + number(value) +
+                "; it must be finite" + (quantity_ == FlowQuantity::head ? "" : " and at least 0"));
+  return value;
+}
+
+std::vector<double> profile_of(const Opening& opening, FlowProfile profile, const std::vector<bool>& wet) {
+  std::vector<double> shape(opening.columns.size(), 1.0);
+  double area = 0, flow = 0;
+  for (std::size_t c = 0; c < shape.size(); ++c) {
+    if (!wet[c]) {
+      shape[c] = 0;
+      continue;
+    }
+    const Opening::Column& column = opening.columns[c];
+    if (profile == FlowProfile::parabolic) {
+      const Vector3d way = column.place - opening.centre;
+      const double up = 2 * way.dot(opening.up) / opening.height;
+      const double across = opening.width > 0 ? 2 * way.dot(opening.across) / opening.width : 0.0;
+      const bool disc = opening.outline.size() > 4;
+      shape[c] = std::max(disc ? 1 - up * up - across * across : (1 - up * up) * (1 - across * across), 0.0);
+    }
+    area += column.area;
+    flow += shape[c] * column.area;
+  }
+  if (flow > 0)
+    for (double& value : shape) value *= area / flow;
+  return shape;
+}
+
+double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
+  constexpr int looks = 1000;
+  std::vector<bool> wet;
+  double area = 0;
+  for (const Opening::Column& column : opening.columns) {
+    wet.push_back(given.kind == OpeningKind::inlet ? column.wet : true);
+    if (wet.back()) area += column.area;
+  }
+  if (!(area > 0)) return 0;
+  const std::vector<double> profile = profile_of(opening, given.profile, wet);
+  const double peak = *std::max_element(profile.begin(), profile.end());
+  if (given.command) return peak * given.command->greatest_discharge.value_or(0) / area;
+  if (!law.quantity() || law.quantity() == FlowQuantity::head) return 0;
+  double greatest = 0;
+  for (int k = 0; k <= looks; ++k) greatest = std::max(greatest, law.at(duration * k / looks));
+  return peak * (law.quantity() == FlowQuantity::discharge ? greatest / area : greatest);
+}
+
+}  // namespace wavetank

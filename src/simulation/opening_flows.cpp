@@ -1,0 +1,349 @@
+#include "opening_flows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "texts.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double least_filling = 0.45;    // of what walls leave of the kernel: less is above the water
+constexpr double drain_behind = 0.25;     // spacings behind the last row, where particles leave: none that comes in is so far back
+constexpr double fastest_of_sound = 0.1;  // of the speed of sound
+
+}  // namespace
+
+void WaterBefore::add(double time, Values values, double longest) {
+  times_.push_back(time);
+  values_.push_back(std::move(values));
+  std::size_t old = 0;  // all before the last that is older than what is asked for
+  while (old + 1 < times_.size() && times_[old + 1] < time - longest) ++old;
+  times_.erase(times_.begin(), times_.begin() + static_cast<std::ptrdiff_t>(old));
+  values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(old));
+}
+
+WaterBefore::Values WaterBefore::at(double time) const {
+  const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+  if (after == times_.begin()) return values_.front();
+  if (after == times_.end()) return values_.back();
+  const auto k = static_cast<std::size_t>(after - times_.begin());
+  const double share = (time - times_[k - 1]) / (times_[k] - times_[k - 1]);
+  Values values = values_[k - 1];
+  for (std::size_t c = 0; c < values.speed.size(); ++c) {
+    values.speed[c] += share * (values_[k].speed[c] - values.speed[c]);
+    values.pressure[c] += share * (values_[k].pressure[c] - values.pressure[c]);
+  }
+  return values;
+}
+
+void WaterBefore::save(std::vector<double>& to) const {
+  to.push_back(static_cast<double>(times_.size()));
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    to.push_back(times_[k]);
+    to.insert(to.end(), values_[k].speed.begin(), values_[k].speed.end());
+    to.insert(to.end(), values_[k].pressure.begin(), values_[k].pressure.end());
+  }
+}
+
+void WaterBefore::restore(std::vector<double>::const_iterator& from, std::size_t columns) {
+  const auto count = static_cast<std::size_t>(*from++);
+  times_.clear();
+  values_.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    times_.push_back(*from++);
+    Values values;
+    for (std::vector<double>* of : {&values.speed, &values.pressure}) {
+      of->assign(from, from + static_cast<std::ptrdiff_t>(columns));
+      from += static_cast<std::ptrdiff_t>(columns);
+    }
+    values_.push_back(std::move(values));
+  }
+}
+
+OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws)
+    : cases_(scene.openings),
+      openings_(layout.openings),
+      laws_(std::move(laws)),
+      spacing_(layout.spacing),
+      support_(discretisation.support),
+      density_(scene.fluid.density),
+      sound_speed_(discretisation.sound_speed),
+      gravity_(-scene.gravity.dot(layout.up)),
+      dimensions_(scene.dimensions),
+      single_(scene.numerics.precision == Precision::single),
+      up_(layout.up),
+      way_(top_of(scene).way) {
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    const double fastest = fastest_flow(cases_[o], openings_[o], laws_[o], scene.duration);
+    const double most = fastest_of_sound * sound_speed_;
+    if (fastest > most * (1 + 1e-9))
+      throw Error("opening '" + openings_[o].name + "': its water moves at up to " + number(fastest) +
+                  " m/s; it must be at most a tenth of the speed of sound, " + number(most) + " m/s: give a larger fluid/sound_speed");
+    Place place;
+    place.phase.assign(openings_[o].columns.size(), 0.0);
+    places_.push_back(std::move(place));
+  }
+  states_.resize(openings_.size());
+}
+
+std::vector<ImposedZone> OpeningFlows::zones() const {
+  std::vector<ImposedZone> zones;
+  for (const Opening& opening : openings_) {
+    ImposedZone zone;
+    zone.centre = opening.centre;
+    zone.normal = opening.normal;
+    zone.across = opening.across;
+    zone.up = opening.up;
+    zone.depth = opening.pocket;
+    zone.layers = opening.rows + 1;
+    zone.cells = opening.cells;
+    zone.cell_size = opening.cell_size;
+    zone.first_edge = opening.first_edge;
+    zones.push_back(std::move(zone));
+  }
+  return zones;
+}
+
+void OpeningFlows::hold(Solver& solver) const {
+  if (!any()) return;
+  std::vector<Drain> drains;
+  for (const Opening& opening : openings_) {
+    const double begin = opening.depth + drain_behind * spacing_, end = opening.pocket + spacing_;
+    Drain drain;
+    drain.centre = opening.centre - 0.5 * (begin + end) * opening.normal;
+    const double across = std::max(0.5 * opening.width, spacing_) + 0.1 * spacing_, up = 0.5 * opening.height + 0.1 * spacing_;
+    drain.half_edges.col(0) = 0.5 * (end - begin) * opening.normal;
+    drain.half_edges.col(1) = across * opening.across;
+    drain.half_edges.col(2) = up * opening.up;
+    drains.push_back(drain);
+  }
+  solver.set_drains(drains);
+  solver.set_zones(zones());
+}
+
+double OpeningFlows::hydrostatic(double level, const Vector3d& place) const {
+  return density_ * gravity_ * std::max(level - height_of(place), 0.0);
+}
+
+double OpeningFlows::commanded_discharge(std::size_t o, double time, double time_step) {
+  Place& place = places_[o];
+  const FlowCommandCase& limits = *cases_[o].command;
+  const bool timed_out = limits.timeout > 0 && time - place.command_time > limits.timeout;
+  double target = place.command_time < 0 || timed_out ? 0.0 : place.wanted;
+  if (limits.greatest_discharge) target = std::min(target, *limits.greatest_discharge);
+  const double change = target - place.commanded;
+  const double most = limits.greatest_rate ? *limits.greatest_rate * time_step : std::abs(change);
+  place.commanded += std::clamp(change, -most, most);
+  return place.commanded;
+}
+
+/// `sign`: 1 into the water, −1 out of it.
+void OpeningFlows::set_given_speeds(std::size_t o, double value, bool is_velocity, double sign, Columns& columns) const {
+  const std::vector<double> profile = profile_of(openings_[o], cases_[o].profile, columns.wet);
+  double area = 0;
+  for (std::size_t c = 0; c < profile.size(); ++c)
+    if (columns.wet[c]) area += openings_[o].columns[c].area;
+  const double mean = is_velocity ? value : area > 0 ? value / area : 0.0;
+  for (std::size_t c = 0; c < profile.size(); ++c) columns.speed[c] = sign * mean * profile[c];
+}
+
+bool OpeningFlows::is_one_way(std::size_t o) const {
+  return cases_[o].kind == OpeningKind::outlet && !cases_[o].level && !cases_[o].command && !laws_[o].quantity();
+}
+
+/// Sound may move what is beyond a free outlet to and fro, but nothing comes in there.
+void OpeningFlows::hold_back(std::size_t o, double time_step, Columns& columns) const {
+  for (std::size_t c = 0; c < columns.speed.size(); ++c)
+    if (places_[o].phase[c] + columns.speed[c] * time_step >= 0.5 * spacing_) columns.speed[c] = std::min(columns.speed[c], 0.0);
+}
+
+OpeningFlows::Columns OpeningFlows::columns_of(std::size_t o, const std::vector<PointValue>& before) const {
+  const Opening& opening = openings_[o];
+  const std::size_t count = opening.columns.size();
+  Columns columns{std::vector<double>(count), std::vector<double>(count), std::vector<bool>(count), std::vector<bool>(count)};
+  for (std::size_t c = 0; c < count; ++c) {
+    columns.pressure[c] = before[c].pressure;
+    columns.wet_before[c] = before[c].filling > least_filling * before[c].shepard;
+    columns.wet[c] = cases_[o].kind == OpeningKind::inlet ? opening.columns[c].wet : columns.wet_before[c];
+    if (columns.wet_before[c]) columns.speed[c] = before[c].velocity.dot(opening.normal);
+  }
+  return columns;
+}
+
+double OpeningFlows::law_at(std::size_t o, double time, double time_step) {
+  if (cases_[o].command) return commanded_discharge(o, time, time_step);
+  return laws_[o].quantity() ? laws_[o].at(time) : 0.0;
+}
+
+void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) const {
+  const OpeningCase& given = cases_[o];
+  const Opening& opening = openings_[o];
+  const std::size_t count = opening.columns.size();
+  if (given.kind == OpeningKind::inlet) {
+    set_given_speeds(o, value, laws_[o].quantity() == FlowQuantity::velocity, 1, columns);
+    return;
+  }
+  double flow = 0, area = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    if (!columns.wet_before[c]) continue;
+    flow += columns.speed[c] * opening.columns[c].area;
+    area += opening.columns[c].area;
+  }
+  if (given.kind == OpeningKind::outlet && (given.command || laws_[o].quantity())) {
+    set_given_speeds(o, value, false, -1, columns);
+  } else if (given.level || given.kind == OpeningKind::pressure) {
+    const double level = way_ * given.level.value_or(value);
+    for (std::size_t c = 0; c < count; ++c) {
+      const Vector3d& place = opening.columns[c].place;
+      columns.pressure[c] = hydrostatic(level, place);
+      const double head = level - height_of(place);
+      if (!columns.wet_before[c] && head > 0)  // into the air, as from a reservoir
+        columns.speed[c] = std::min(std::sqrt(2 * gravity_ * head), fastest_of_sound * sound_speed_);
+      columns.wet[c] = columns.wet_before[c] || head > 0;
+    }
+  }
+  // what is left above the water goes with it
+  const double mean = area > 0 ? std::min(flow / area, 0.0) : 0.0;
+  for (std::size_t c = 0; c < count; ++c)
+    if (!columns.wet[c]) columns.speed[c] = mean;
+}
+
+void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming) {
+  const Opening& opening = openings_[o];
+  const double last_row = (opening.rows - 0.5) * spacing_;
+  for (std::size_t c = 0; c < opening.columns.size(); ++c) {
+    double& phase = places_[o].phase[c];
+    if (!columns.wet[c] && columns.speed[c] >= 0) continue;
+    phase += columns.speed[c] * time_step;
+    if (phase <= -(0.5 + drain_behind) * spacing_) phase += spacing_;  // its last row has left
+    if (phase < 0.5 * spacing_) continue;
+    phase -= spacing_;
+    coming.position.push_back(opening.columns[c].place + (phase - last_row) * opening.normal);
+    coming.velocity.push_back(columns.speed[c] * opening.normal);
+    coming.volume.push_back(opening.columns[c].area * spacing_);
+    coming.pressure.push_back(columns.pressure[c]);
+  }
+}
+
+void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
+  if (!any()) return;
+  if (!points_) {
+    std::vector<Vector3d> before;
+    for (const Opening& opening : openings_)
+      for (const Opening::Column& column : opening.columns) before.push_back(column.place + 0.5 * support_ * opening.normal);
+    points_ = solver.make_points(before);
+  }
+  const std::vector<PointValue> values = solver.evaluate(*points_);
+  std::vector<ImposedZone> zones = this->zones();
+  NewParticles coming;
+  std::size_t first = 0;
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    const Opening& opening = openings_[o];
+    const std::size_t count = opening.columns.size();
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+    Columns columns = columns_of(o, {begin, begin + static_cast<std::ptrdiff_t>(count)});
+    first += count;
+    const double value = law_at(o, time, time_step), to_plane = 0.5 * support_;
+    if (cases_[o].kind == OpeningKind::inlet)  // above its level there is air, and spray
+      for (const int column : opening.column_of) zones[o].is_free.push_back(columns.wet[column] ? 0 : 1);
+    WaterBefore& before = places_[o].before;
+    Columns last_row;
+    before.add(time, {columns.speed, columns.pressure}, (to_plane + opening.pocket) / sound_speed_);
+    for (int layer = 0; layer < zones[o].layers; ++layer) {
+      const double way = to_plane + (layer + 0.5) * opening.pocket / zones[o].layers;
+      WaterBefore::Values late = before.at(time + 0.5 * time_step - way / sound_speed_);
+      columns.speed = std::move(late.speed);
+      columns.pressure = std::move(late.pressure);
+      apply_law(o, value, columns);
+      if (is_one_way(o)) hold_back(o, time_step, columns);
+      if (single_)  // as the device has it
+        for (double& speed : columns.speed) speed = static_cast<float>(speed);
+      for (const int column : opening.column_of) {
+        zones[o].speed.push_back(columns.speed[column]);
+        zones[o].pressure.push_back(columns.pressure[column]);
+      }
+      if (layer == opening.rows - 1) last_row = columns;
+      if (layer > 0) continue;
+      states_[o].discharge = 0;
+      for (std::size_t c = 0; c < count; ++c)
+        if (columns.wet[c]) states_[o].discharge += columns.speed[c] * opening.columns[c].area;
+    }
+    const std::size_t already = coming.position.size();
+    let_in(o, last_row, time_step, coming);
+    states_[o].particles_in += coming.position.size() - already;
+    for (std::size_t k = already; k < coming.position.size(); ++k) coming_to_.push_back(o);
+  }
+  solver.set_zones(zones);
+  if (!coming.position.empty()) solver.let_in(coming);
+}
+
+void OpeningFlows::after_step(const StepReport& report) {
+  if (!any()) return;
+  for (std::size_t k = 0; k < report.let_in.size() && k < coming_to_.size(); ++k) states_[coming_to_[k]].mass_in += report.let_in[k];
+  coming_to_.clear();
+  for (const LeftParticle& particle : report.left) {
+    std::size_t by = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t o = 0; o < openings_.size(); ++o) {
+      const Opening& opening = openings_[o];
+      const double distance =
+          (particle.position - opening.centre + opening.pocket * opening.normal).norm() - 0.5 * std::max(opening.width, opening.height);
+      if (distance < least) least = distance, by = o;
+    }
+    states_[by].mass_out += particle.mass;
+    ++states_[by].particles_out;
+  }
+  for (OpeningState& state : states_) state.volume = (state.mass_in - state.mass_out) / density_;
+}
+
+void OpeningFlows::command(std::size_t opening, double time, double discharge) {
+  const std::string what = "opening '" + openings_.at(opening).name + "' ";
+  if (!cases_[opening].command) throw Error(what + "is not commanded: openings/" + std::to_string(opening) + "/command is not given");
+  double area = 0;
+  for (const Opening::Column& column : openings_[opening].columns)
+    if (column.wet || cases_[opening].kind != OpeningKind::inlet) area += column.area;
+  const double most = fastest_of_sound * sound_speed_ * area;
+  const double limited = std::min(discharge, cases_[opening].command->greatest_discharge.value_or(discharge));
+  if (!std::isfinite(discharge) || discharge < 0 || limited > most)
+    throw Error(what + "was commanded a discharge of " + number(discharge) + "; it must be from 0 to " + number(most) +
+                (dimensions_ == 2 ? " m²/s" : " m³/s") + ", a tenth of the speed of sound");
+  places_[opening].wanted = discharge;
+  places_[opening].command_time = time;
+}
+
+std::vector<char> OpeningFlows::save() const {
+  std::vector<double> values;
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    const Place& place = places_[o];
+    const OpeningState& state = states_[o];
+    values.insert(values.end(), place.phase.begin(), place.phase.end());
+    place.before.save(values);
+    values.insert(values.end(), {place.commanded, place.wanted, place.command_time, state.discharge, state.volume, state.mass_in,
+                                 state.mass_out, static_cast<double>(state.particles_in), static_cast<double>(state.particles_out)});
+  }
+  std::vector<char> bytes(values.size() * sizeof(double));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+void OpeningFlows::restore(const std::vector<char>& bytes) {
+  std::vector<double> values(bytes.size() / sizeof(double));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  auto next = values.cbegin();
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    Place& place = places_[o];
+    OpeningState& state = states_[o];
+    for (double& phase : place.phase) phase = *next++;
+    place.before.restore(next, place.phase.size());
+    for (double* value :
+         {&place.commanded, &place.wanted, &place.command_time, &state.discharge, &state.volume, &state.mass_in, &state.mass_out})
+      *value = *next++;
+    state.particles_in = static_cast<std::uint64_t>(*next++);
+    state.particles_out = static_cast<std::uint64_t>(*next++);
+  }
+}
+
+}  // namespace wavetank

@@ -1,0 +1,200 @@
+// Openings in walls: their pockets, the lattice beyond them, and those that cannot be.
+#include <numeric>
+
+#include "geometry_fixture.h"
+
+namespace wavetank {
+namespace {
+
+OpeningCase hole(const Vector3d& centre, const Vector3d& normal, double width, double height) {
+  OpeningCase opening;
+  opening.name = "hole";
+  opening.velocity = "1";
+  opening.centre = centre;
+  opening.normal = normal;
+  opening.size = std::array<double, 2>{width, height};
+  return opening;
+}
+
+OpeningCase disc(const Vector3d& centre, const Vector3d& normal, double diameter) {
+  OpeningCase opening = hole(centre, normal, 1, 1);
+  opening.size.reset();
+  opening.diameter = diameter;
+  return opening;
+}
+
+Case flat_tank() {
+  Case scene = box_case(Vector3d(2, 0, 1), 0.6, 0.1);
+  scene.openings = {hole(Vector3d(0, 0, 0.5), Vector3d::UnitX(), 1, 0.4)};
+  return scene;
+}
+
+Case solid_tank() {
+  Case scene = box_case(Vector3d(2, 1, 1), 0.6, 0.1);
+  scene.openings = {hole(Vector3d(2, 0.5, 0.3), -Vector3d::UnitX(), 0.4, 0.4)};
+  return scene;
+}
+
+/// Of facets that face along an axis at a place on it, m (2-D) or m².
+double wall_at(const Layout& layout, int axis, double place, int dimensions) {
+  double size = 0;
+  for (const Facet& facet : layout.facets) {
+    if (std::abs(facet.normal[axis]) < 0.999 || std::abs(facet.plane_point[axis] - place) > 1e-6) continue;
+    const Vector3d a = facet.corners[1] - facet.corners[0], b = facet.corners[2] - facet.corners[0];
+    size += dimensions == 2 ? a.norm() : 0.5 * a.cross(b).norm();
+  }
+  return size;
+}
+
+/// Normal times size over all wall elements, out of the water: zero over a closed surface.
+Vector3d flux(const Layout& layout) {
+  Vector3d sum = Vector3d::Zero();
+  for (const WallElement& wall : layout.walls) sum += wall.area * wall.normal;
+  return sum;
+}
+
+class OpeningsTest : public GeometryTest {};
+
+TEST_F(OpeningsTest, AreHolesWithAPocketIn2D) {
+  const Layout layout = lay_out(flat_tank());
+  ASSERT_EQ(layout.openings.size(), 1u);
+  const Opening& opening = layout.openings[0];
+  EXPECT_EQ(opening.rows, 5);  // the support of 4 spacings, and one
+  EXPECT_NEAR(opening.pocket, 0.6, 1e-12);
+  EXPECT_NEAR(opening.area, 0.4, 1e-12);
+  EXPECT_EQ(opening.columns.size(), 4u);
+  EXPECT_NEAR(wall_at(layout, 0, 0, 2), 0.6, 1e-9);
+  EXPECT_NEAR(wall_at(layout, 0, -0.6, 2), 0.4, 1e-9);
+  EXPECT_NEAR(wall_at(layout, 2, 0.3, 2), 0.6, 1e-9);
+  EXPECT_NEAR(wall_at(layout, 2, 0.7, 2), 0.6, 1e-9);
+  EXPECT_EQ(layout.domain.min.x(), 0);
+  EXPECT_NEAR(flux(layout).x(), 0, 1e-9);
+}
+
+TEST_F(OpeningsTest, AreHolesWithAPocketIn3D) {
+  const Layout whole = lay_out([] {
+    Case scene = solid_tank();
+    scene.openings.clear();
+    return scene;
+  }());
+  const Layout layout = lay_out(solid_tank());
+  EXPECT_NEAR(wall_at(layout, 0, 2, 3), wall_at(whole, 0, 2, 3) - 0.16, 1e-9);
+  EXPECT_NEAR(wall_at(layout, 0, 2.5, 3), 0.16, 1e-9);  // 3 spacings of support, and two
+  double area = 0, area_whole = 0;
+  for (const WallElement& wall : layout.walls) area += wall.area;
+  for (const WallElement& wall : whole.walls) area_whole += wall.area;
+  EXPECT_NEAR(area, area_whole + 4 * 0.4 * 0.5, 1e-6);
+  EXPECT_LT((flux(layout) - flux(whole)).norm(), 1e-9);
+}
+
+TEST_F(OpeningsTest, TheLatticeHasTheAreaOfTheOutline) {
+  const double pi = std::acos(-1.0);
+  for (const double diameter : {0.25, 0.4, 0.55}) {
+    Case scene = solid_tank();
+    scene.openings = {disc(Vector3d(2, 0.5, 0.4), -Vector3d::UnitX(), diameter)};
+    const Opening opening = lay_out(scene).openings[0];
+    double area = 0;
+    Vector3d moment = Vector3d::Zero();
+    for (const Opening::Column& column : opening.columns) {
+      EXPECT_GT(column.area, 0.3 * 0.01);
+      EXPECT_LT(column.area, 2.2 * 0.01);
+      area += column.area;
+      moment += column.area * (column.place - opening.centre);
+    }
+    EXPECT_NEAR(area, 0.25 * pi * diameter * diameter, 1e-9);
+    EXPECT_LT(moment.norm(), 1e-9);
+    EXPECT_EQ(opening.column_of.size(), static_cast<std::size_t>(opening.cells[0]) * opening.cells[1]);
+  }
+}
+
+TEST_F(OpeningsTest, WaterBeyondStandsWhereThereIsWaterBefore) {
+  Case scene = flat_tank();
+  scene.openings[0].kind = OpeningKind::outlet;
+  scene.openings[0].velocity.clear();
+  scene.openings[0].size = std::array<double, 2>{1, 0.8};
+  const Layout layout = lay_out(scene);
+  EXPECT_EQ(layout.beyond, 5u * 5u);  // from 0.1 m to the level of 0.6 m, 5 rows deep
+  double volume = 0;
+  for (std::size_t i = layout.particles.size() - layout.beyond; i < layout.particles.size(); ++i) {
+    EXPECT_LT(layout.particles[i].x(), 0);
+    EXPECT_LT(layout.particles[i].z(), 0.6);
+    EXPECT_NEAR(layout.levels[i], 0.6, 1e-12);
+    volume += layout.volumes[i];
+  }
+  EXPECT_NEAR(volume, 0.5 * 0.5, 1e-12);
+}
+
+TEST_F(OpeningsTest, ALevelIsBetweenTwoRows) {
+  Case scene = flat_tank();
+  scene.openings[0].centre.z() = 0.5;
+  scene.openings[0].size = std::array<double, 2>{1, 0.9};
+  scene.openings[0].level = 0.57;
+  const Opening opening = lay_out(scene).openings[0];
+  double area = 0;
+  for (const Opening::Column& column : opening.columns) area += column.wet ? column.area : 0.0;
+  EXPECT_NEAR(area, 0.57 - 0.05, 1e-12);
+}
+
+TEST_F(OpeningsTest, OfABodyHaveTheirPocketInIt) {
+  Case scene = box_case(Vector3d(2, 1, 1), 0.3, 0.1);
+  BodyCase nozzle;
+  nozzle.name = "nozzle";
+  nozzle.shape = Box{Vector3d(0.4, 0.2, 0.4), Vector3d(1.0, 0.8, 0.9)};
+  scene.bodies = {nozzle};
+  scene.openings = {disc(Vector3d(1.0, 0.5, 0.65), Vector3d::UnitX(), 0.3)};
+  scene.openings[0].body = "nozzle";
+  const Layout layout = lay_out(scene);
+  EXPECT_EQ(layout.openings[0].owner, 1);
+  EXPECT_NEAR(wall_at(layout, 0, 1.0, 3), 0.6 * 0.5 - layout.openings[0].area, 1e-9);
+  EXPECT_NEAR(wall_at(layout, 0, 0.5, 3), layout.openings[0].area, 1e-9);
+  EXPECT_GT(layout.beyond, 0u);
+  scene.openings[0].centre.x() = 0.8;
+  EXPECT_ERROR(lay_out(scene), "does not lie in a flat wall of body 'nozzle'");
+}
+
+TEST_F(OpeningsTest, ThatCannotBeAreRefused) {
+  const auto with = [](Case scene, const std::function<void(OpeningCase&)>& change) {
+    change(scene.openings[0]);
+    return scene;
+  };
+  EXPECT_ERROR(lay_out(with(flat_tank(), [](OpeningCase& o) { o.centre.x() = 0.2; })),
+               "opening 'hole' at (0.2, 0, 0.5) m does not lie in a flat wall of the tank: of its 0.4 m, 0 m are on one");
+  EXPECT_ERROR(lay_out(with(flat_tank(), [](OpeningCase& o) { o.centre.z() = 0.9; })), "of its 0.4 m, 0.3 m are on one");
+  EXPECT_ERROR(lay_out(with(solid_tank(), [](OpeningCase& o) { o.centre.y() = 0.9; })), "of its 0.16 m², 0.12 m² are on one");
+  EXPECT_ERROR(lay_out(with(solid_tank(), [](OpeningCase& o) { o.normal = Vector3d(-1, 0.1, 0); })), "does not lie in a flat wall");
+  EXPECT_ERROR(lay_out(with(flat_tank(), [](OpeningCase& o) { o.normal = -o.normal; })),
+               "opens where no water can come to, about (-0.05, 0, 0.35) m; its normal must point into the water");
+  EXPECT_ERROR(lay_out(with(flat_tank(),
+                            [](OpeningCase& o) {
+                              o.size = std::array<double, 2>{1, 0.15};
+                            })),
+               "is narrower than two spacings of 0.1 m");
+  Case overlapping = flat_tank();
+  overlapping.openings.push_back(overlapping.openings[0]);
+  overlapping.openings[1].name = "other";
+  overlapping.openings[1].centre.z() += 0.2;
+  EXPECT_ERROR(lay_out(overlapping), "overlaps opening 'other'");
+}
+
+TEST_F(OpeningsTest, PocketsThatMeetWaterOrBodiesAreRefused) {
+  Case scene = box_case(Vector3d(2, 1, 1), 0.6, 0.1);
+  BodyCase wall;
+  wall.name = "wall";
+  wall.shape = Box{Vector3d(0.9, 0, 0), Vector3d(1.1, 1, 0.9)};
+  scene.bodies = {wall};
+  scene.openings = {hole(Vector3d(1.1, 0.5, 0.3), Vector3d::UnitX(), 0.4, 0.4)};
+  scene.openings[0].body = "wall";
+  EXPECT_ERROR(lay_out(scene), "takes a pocket of 0.5 m behind it, which meets the space that water can reach");
+  scene.openings[0].body.clear();
+  EXPECT_ERROR(lay_out(scene), "does not lie in a flat wall of the tank");
+  Case inside = box_case(Vector3d(2, 1, 1), 0.6, 0.1);
+  BodyCase block;
+  block.name = "block";
+  block.shape = Box{Vector3d(0, 0.2, 0), Vector3d(0.5, 0.8, 0.9)};
+  inside.bodies = {block};
+  inside.openings = {hole(Vector3d(0, 0.5, 0.4), Vector3d::UnitX(), 0.4, 0.4)};
+  EXPECT_ERROR(lay_out(inside), "opens into body 'block'");
+}
+
+}  // namespace
+}  // namespace wavetank

@@ -1,0 +1,254 @@
+// Openings: what comes in and leaves, at rest and in a current.
+#include <map>
+#include <numeric>
+
+#include "simulation_fixture.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double depth = 0.4, spacing = 0.04;
+
+OpeningCase opening(const std::string& name, OpeningKind kind, const Vector3d& centre, const Vector3d& normal, double height) {
+  OpeningCase result;
+  result.name = name;
+  result.kind = kind;
+  result.centre = centre;
+  result.normal = normal;
+  result.size = std::array<double, 2>{1.0, height};
+  return result;
+}
+
+/// A tank of 1.2 m × 0.6 m, with a hole over the whole height of its right end.
+Case tank_with_outlet() {
+  Case scene = box_case(Vector3d(1.2, 0, 0.6), depth, spacing);
+  scene.duration = 4;
+  scene.openings = {opening("end", OpeningKind::outlet, Vector3d(1.2, 0, 0.3), -Vector3d::UnitX(), 0.6)};
+  scene.openings[0].level = depth;
+  return scene;
+}
+
+/// The same, with water that comes in at the left and leaves at the right.
+Case channel(const std::string& velocity) {
+  Case scene = tank_with_outlet();
+  scene.numerics.walls.slip = Slip::free_slip;
+  OpeningCase inlet = opening("start", OpeningKind::inlet, Vector3d(0, 0, 0.3), Vector3d::UnitX(), 0.6);
+  inlet.velocity = velocity;
+  inlet.level = depth;
+  scene.openings.insert(scene.openings.begin(), inlet);
+  return scene;
+}
+
+double mass_of(const Simulation& simulation) { return simulation.energies().mass; }
+
+struct Balance {
+  double in = 0, out = 0;
+};
+
+Balance balance_of(const Simulation& simulation) {
+  Balance balance;
+  for (const OpeningState& state : simulation.openings()) {
+    balance.in += state.mass_in;
+    balance.out += state.mass_out;
+  }
+  return balance;
+}
+
+using Openings = SimulationTest;
+
+/// By id.
+std::map<std::uint32_t, Eigen::Vector3f> places_of(const Simulation& simulation) {
+  const ParticleCloud cloud = simulation.particles();
+  std::map<std::uint32_t, Eigen::Vector3f> places;
+  for (std::size_t i = 0; i < cloud.id.size(); ++i) places[cloud.id[i]] = cloud.position[i];
+  return places;
+}
+
+TEST_F(Openings, StillWaterAtItsOutletsLevelStaysStill) {
+  Case closed = tank_with_outlet();
+  closed.openings.clear();
+  Simulation with(tank_with_outlet()), without(closed);
+  double fastest_with = 0, fastest_without = 0;
+  while (with.state().time < 1) {
+    with.advance();
+    without.advance();
+    fastest_with = std::max(fastest_with, with.state().greatest_speed);
+    fastest_without = std::max(fastest_without, without.state().greatest_speed);
+  }
+  EXPECT_LT(fastest_with, 1.2 * fastest_without);
+  EXPECT_EQ(balance_of(with).in, 0);
+  EXPECT_EQ(balance_of(with).out, 0);
+}
+
+TEST_F(Openings, AChannelKeepsItsDepthAndItsMass) {
+  Case scene = channel("0.4");
+  scene.fluid.current = Vector3d(0.4, 0, 0);
+  scene.instruments.wave_gauges = {{"a", Vector3d(0.3, 0, 0)}, {"b", Vector3d(0.9, 0, 0)}};
+  Simulation simulation(scene);
+  const double mass = simulation.energies().mass;
+  while (simulation.state().time < 4) simulation.advance();
+  const Balance balance = balance_of(simulation);
+  EXPECT_NEAR(balance.in, 4 * 0.4 * depth * 1000, 1.01 * 10 * spacing * spacing * 1000);  // a row of particles at the most
+  EXPECT_NEAR(mass + balance.in - balance.out, simulation.energies().mass, 1e-6 * mass);
+  for (const LevelSample& sample : simulation.take_samples().levels)
+    for (const double level : sample.levels) ASSERT_NEAR(level, depth, spacing) << "at t = " << sample.time;
+}
+
+TEST_F(Openings, WaterComesInWithoutAGapWhateverItsVelocityDoes) {
+  Simulation simulation(channel("t < 0.5 ? 0.5 + 0.4*sin(20*t) : t < 0.7 ? 0 : 0.8"));
+  const std::size_t rows = static_cast<std::size_t>(depth / spacing + 0.5);
+  std::size_t most = 0;
+  while (simulation.state().time < 1.2) {
+    simulation.advance();
+    if (simulation.state().step % 10 != 0) continue;
+    std::map<int, std::vector<double>> behind;  // along x, by row
+    for (const auto& [id, place] : places_of(simulation))
+      if (place.x() < -1e-3 * spacing && place.z() < depth) behind[static_cast<int>(place.z() / spacing)].push_back(place.x());
+    ASSERT_EQ(behind.size(), rows);
+    for (auto& [row, along] : behind) {
+      std::sort(along.begin(), along.end());
+      most = std::max(most, along.size());
+      EXPECT_GE(along.size(), 4u);
+      for (std::size_t k = 1; k < along.size(); ++k) ASSERT_NEAR(along[k] - along[k - 1], spacing, 1e-4 * spacing) << "in row " << row;
+      ASSERT_GT(along.back(), -1.01 * spacing);  // up to the plane
+    }
+  }
+  EXPECT_LE(most, 6u);
+}
+
+TEST_F(Openings, RepeatBitForBitAndFromASnapshot) {
+  Case scene = channel("0.4 + 0.2*sin(9*t)");
+  scene.duration = 2;
+  const int steps = 300;
+  Simulation first(scene), second(scene);
+  run_steps(first, steps);
+  first.save(path("middle"));
+  const Samples rest = run_steps(first, steps);
+  run_steps(second, steps);
+  EXPECT_TRUE(same(rest, run_steps(second, steps)));
+  EXPECT_EQ(snapshot(first), snapshot(second));
+  Simulation third(scene);
+  third.restore(path("middle"));
+  EXPECT_TRUE(same(rest, run_steps(third, steps)));
+  EXPECT_EQ(snapshot(first), snapshot(third));
+  third.reset();
+  run_steps(third, 2 * steps);
+  EXPECT_EQ(snapshot(first), snapshot(third));
+}
+
+TEST_F(Openings, IdsNeverRepeat) {
+  Simulation simulation(channel("0.8"));
+  std::map<std::uint32_t, float> seen;  // where each was at last, along the channel
+  while (simulation.state().time < 1) {
+    simulation.advance();
+    if (simulation.state().step % 20 != 0) continue;
+    for (const auto& [id, place] : places_of(simulation)) {
+      const auto [known, is_new] = seen.emplace(id, place.x());
+      if (!is_new) ASSERT_LT(std::abs(known->second - place.x()), spacing) << "particle " << id;
+      known->second = place.x();
+    }
+  }
+  EXPECT_GT(seen.size(), 500u);
+}
+
+TEST_F(Openings, FillAnEmptyTankByWhatIsCommanded) {
+  Case scene = box_case(Vector3d(0.6, 0, 0.5), 0.1, 0.02);
+  scene.duration = 2;
+  scene.fluid.fill.clear();
+  scene.openings = {opening("tap", OpeningKind::inlet, Vector3d(0, 0, 0.2), Vector3d::UnitX(), 0.08)};
+  scene.openings[0].command = FlowCommandCase{0.05, 0.1, 0.4};
+  Simulation simulation(scene);
+  const auto run_until = [&](double time) {
+    while (simulation.state().time < time) simulation.advance();
+  };
+  run_until(0.1);
+  EXPECT_EQ(simulation.openings()[0].discharge, 0);
+  simulation.command_discharge(0, 0.08);
+  run_until(0.3);
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.02, 1e-3);  // 0.1 m²/s² for 0.2 s
+  simulation.command_discharge(0, 0.08);
+  run_until(0.65);
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.05, 1e-6);  // the limit
+  run_until(1.3);
+  EXPECT_EQ(simulation.openings()[0].discharge, 0);  // nobody asked for more
+  // 0.05²/(2·0.1) while it rises and again while it falls, and the rest of 0.6 s
+  EXPECT_NEAR(simulation.openings()[0].volume, 0.05 * 0.1 + 0.0125 * 2, 4 * 0.02 * 0.02);
+  EXPECT_NEAR(simulation.openings()[0].mass_in, 1000 * simulation.openings()[0].volume, 1e-6);
+  EXPECT_NE(error_of([&] { simulation.command_discharge(0, -1); }).find("was commanded a discharge of -1"), std::string::npos);
+  EXPECT_NO_THROW(simulation.command_discharge(0, 1e4));  // which is limited
+}
+
+TEST_F(Openings, FasterThanATenthOfTheSoundAreRefused) {
+  Case scene = channel("3*t");
+  scene.fluid.sound_speed = 28;
+  EXPECT_NE(error_of([&] {
+              Simulation simulation(scene);
+            }).find("opening 'start': its water moves at up to 12 m/s; it must be at most a tenth of the speed of sound, 2.8 m/s"),
+            std::string::npos);
+  scene = channel("0.4 - t");
+  EXPECT_NE(error_of([&] { Simulation simulation(scene); }).find("opening 'start': its velocity at t = 0.404 s is -0.004"),
+            std::string::npos);
+}
+
+TEST_F(Openings, FollowARecord) {
+  Case scene = channel("");
+  FlowRecordCase record;
+  record.file = path("flow.csv");
+  write(record.file, "time,discharge\n0,0.1\n0.2,0.2\n0.4,0.2\n");
+  scene.openings[0].record = record;
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.1) simulation.advance();
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.15, 2e-3);
+  write(record.file, "time,discharge\n0,0.1\n0.2,0.2\n0.2,0.2\n");
+  EXPECT_NE(error_of([&] { Simulation again(scene); }).find("line 4, column 'time': the time 0.2 s does not come after 0.2 s"),
+            std::string::npos);
+}
+
+TEST_F(Openings, OfAFreeOutletLetNothingIn) {
+  Case scene = tank_with_outlet();
+  scene.openings[0].level.reset();
+  scene.fluid.current = Vector3d(-0.1, 0, 0);
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.5) simulation.advance();
+  EXPECT_EQ(simulation.openings()[0].particles_in, 0u);
+}
+
+/// Of sound in a full duct, at a probe between where it starts and the far end: its pressures at the probe.
+std::vector<double> pulse(double length, bool open) {
+  constexpr double height = 0.2, sound_speed = 20, speed = 0.02, until = 0.14;
+  Case scene = box_case(Vector3d(length, 0, height), height, 0.02);
+  scene.gravity = Vector3d::Zero();
+  scene.fluid.sound_speed = sound_speed;
+  scene.fluid.viscosity = 0;
+  std::get<BoxTank>(scene.tank.shape).closed = true;
+  scene.numerics.walls.slip = Slip::free_slip;
+  scene.numerics.negative_pressure = NegativePressure::allowed;
+  scene.numerics.packing.iterations = 0;
+  const std::string shape = "*exp(-((x-1)/0.2)^2)";
+  scene.fluid.initial.u = std::to_string(speed) + shape;
+  scene.fluid.initial.pressure = std::to_string(1000 * sound_speed * speed) + shape;
+  if (open) scene.openings = {opening("end", OpeningKind::outlet, Vector3d(length, 0, height / 2), -Vector3d::UnitX(), height)};
+  scene.instruments.pressure_probes = {{"middle", Vector3d(1.5, 0, height / 2), ""}};
+  Simulation simulation(scene);
+  while (simulation.state().time < until) simulation.advance();
+  std::vector<double> pressures;
+  for (const PressureSample& sample : simulation.take_samples().pressures) pressures.push_back(sample.pressures[0]);
+  return pressures;
+}
+
+TEST_F(Openings, AFreeOutletSendsBackNoSound) {
+  const std::vector<double> open = pulse(2, true), closed = pulse(2, false), long_one = pulse(3.6, false);
+  double incident = 0, sent_back = 0, by_a_wall = 0;
+  for (std::size_t k = 0; k < std::min({open.size(), closed.size(), long_one.size()}); ++k) {
+    incident = std::max(incident, long_one[k]);
+    sent_back = std::max(sent_back, std::abs(open[k] - long_one[k]));
+    by_a_wall = std::max(by_a_wall, std::abs(closed[k] - long_one[k]));
+  }
+  RecordProperty("reflected", std::to_string(sent_back / incident));
+  EXPECT_GT(by_a_wall, 0.3 * incident);
+  EXPECT_LT(sent_back, 0.05 * by_a_wall);
+  EXPECT_LT(sent_back, 0.05 * incident);
+}
+
+}  // namespace
+}  // namespace wavetank

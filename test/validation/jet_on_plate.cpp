@@ -1,0 +1,192 @@
+// jet_on_plate: a plane jet on a plate (particle shifting paper, §6), its pressures on the plate against free-streamline theory.
+//   jet_on_plate WORD=VALUE...
+// Words: n (particles over the jet's thickness H = 1 m, 20), angle (of the jet with the plate, degrees, 90), end (t U/H, 20), begin (of the
+// mean, 10), courant (0.5), damping (acoustic, with symplectic alone, 0.5:
+// sound between plate and nozzle rings for long without), sound (c₀/U, 11), distance (of the nozzle from the plate along
+// the jet, H, 2), left and right (outlets from the stagnation point, H, 4), scheme, shifting, tensile, integrator and density_diffusion.
+// Prints the mean p* at points of the plate beside the exact one, the mean and scatter at the stagnation point, the L2 of the difference,
+// and the account of mass.
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "validation_case.h"
+#include "wavetank/common/error.h"
+#include "wavetank/scene/methods.h"
+#include "wavetank/simulation/simulation.h"
+
+namespace wavetank {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+using Words = std::map<std::string, std::string>;
+
+double number(const Words& words, const std::string& name, double otherwise) {
+  const auto found = words.find(name);
+  return found == words.end() ? otherwise : std::stod(found->second);
+}
+
+template <class Choice>
+void choose(const Words& words, const std::string& name, Choice& value) {
+  const auto found = words.find(name);
+  if (found == words.end()) return;
+  for (const MethodWord<Choice>& known : method_words<Choice>())
+    if (found->second == known.word) {
+      value = known.choice;
+      return;
+    }
+  throw Error(name + " is " + found->second + ", which is no word of that key");
+}
+
+/// Distance from the stagnation point, in H, towards the side that most water goes to, at which the speed is q U; −1 < q < 1.
+double place_of(double q, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return (c * std::log(1 - 2 * c * q + q * q) + 2 * s * (std::atan((q - c) / s) + pi / 2 - angle) - (1 + c) * std::log(1 - q) +
+          (1 - c) * std::log(1 + q)) /
+         pi;
+}
+
+/// p/(½ρU²) there.
+double exact_pressure(double place, double angle) {
+  double low = -1 + 1e-12, high = 1 - 1e-12;
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (low + high);
+    (place_of(middle, angle) < place ? low : high) = middle;
+  }
+  return 1 - low * low;
+}
+
+int run(const Words& words) {
+  const double n = number(words, "n", 20), angle = number(words, "angle", 90) * pi / 180, end = number(words, "end", 20),
+               begin = number(words, "begin", 10), sound = number(words, "sound", 11), distance = number(words, "distance", 2);
+  const double spacing = 1 / n, cos = std::cos(angle), sin = std::sin(angle), wall = 5 * spacing;
+  const double left = number(words, "left", 4), right = number(words, "right", 4);
+  const double outlet = 1.25;  // H, higher than either sheet
+  // the stagnation point is that far upstream of where the jet's axis meets the plate: from the moment about it
+  const double axis = angle == pi / 2 ? 0.0 : (std::abs(angle - pi / 6) < 1e-9 ? 1.4519 : 0.0);
+
+  Case scene;
+  scene.title = "Plane jet on a plate";
+  scene.dimensions = 2;
+  scene.gravity = Vector3d::Zero();
+  scene.duration = end;
+  scene.fluid.spacing = spacing;
+  scene.fluid.viscosity = 0;
+  scene.fluid.sound_speed = sound;
+  scene.numerics.walls.slip = Slip::free_slip;
+  scene.numerics.packing.iterations = 0;
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  scene.numerics.shifting = Shifting::michel;
+  choose(words, "scheme", scene.numerics.scheme);
+  choose(words, "shifting", scene.numerics.shifting);
+  choose(words, "tensile", scene.numerics.tensile);
+  choose(words, "integrator", scene.numerics.integrator);
+  const bool riemann = scene.numerics.scheme != Scheme::delta_sph;
+  scene.numerics.density_diffusion = riemann ? DensityDiffusion::none : DensityDiffusion::antuono;
+  scene.numerics.artificial_viscosity = riemann ? 0 : 0.01;
+  scene.numerics.negative_pressure = NegativePressure::allowed;
+  scene.numerics.courant = number(words, "courant", scene.numerics.courant);
+  scene.numerics.acoustic_damping = number(words, "damping", scene.numerics.integrator == Integrator::symplectic ? 0.5 : 0);
+  choose(words, "density_diffusion", scene.numerics.density_diffusion);
+  scene.numerics.expected_speed = 1;
+
+  // stagnation point at x = 0; the jet comes from above, its velocity (cos, 0, −sin)
+  const Vector3d along(cos, 0, -sin), mouth = Vector3d(axis, 0, 0) - distance * along;
+  const double depth = 11 * spacing;  // of the nozzle: its pocket is six spacings
+  const double top = mouth.z() + depth + 1;
+  scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), false};
+  scene.tank.splash_guard = false;
+  BodyCase nozzle;
+  nozzle.name = "nozzle";
+  MeshSource box;
+  char uri[120];
+  std::snprintf(uri, sizeof uri, "shape://box?size=%.12g,1,%.12g", depth, 1 + 2 * wall);
+  box.uri = uri;
+  box.rotation = Vector3d(0, angle, 0);
+  box.translation = mouth - 0.5 * depth * along;
+  nozzle.shape = box;
+  scene.bodies = {nozzle};
+
+  const auto add = [&](const char* name, OpeningKind kind, const Vector3d& centre, const Vector3d& normal, double height) {
+    OpeningCase opening;
+    opening.name = name;
+    opening.kind = kind;
+    opening.centre = centre;
+    opening.normal = normal;
+    opening.size = std::array<double, 2>{1, height};
+    scene.openings.push_back(opening);
+  };
+  add("jet", OpeningKind::inlet, mouth, along, 1);
+  scene.openings[0].body = "nozzle";
+  scene.openings[0].velocity = "min(t/2, 1)";  // its front is to hit the plate gently
+  add("left", OpeningKind::outlet, Vector3d(-left, 0, outlet / 2), Vector3d::UnitX(), outlet);
+  add("right", OpeningKind::outlet, Vector3d(right, 0, outlet / 2), -Vector3d::UnitX(), outlet);
+
+  std::vector<double> places;
+  for (double x = -2; x <= 3; x += 0.05) places.push_back(x);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    scene.instruments.pressure_probes.push_back({"p" + std::to_string(k), Vector3d(places[k], 0, 0), ""});
+  scene.instruments.rate = 50;
+
+  Simulation simulation(scene);
+  const double dynamic = 0.5 * scene.fluid.density;
+  std::vector<double> mean(places.size(), 0.0);
+  double samples = 0, stagnation = 0, squares = 0;
+  const auto nearest = static_cast<std::size_t>(std::lround(2 / 0.05));
+  while (simulation.state().time < end) {
+    simulation.advance();
+    for (const PressureSample& sample : simulation.take_samples().pressures) {
+      if (sample.time < begin) continue;
+      ++samples;
+      for (std::size_t k = 0; k < places.size(); ++k) mean[k] += sample.pressures[k] / dynamic;
+      stagnation += sample.pressures[nearest] / dynamic;
+      squares += std::pow(sample.pressures[nearest] / dynamic, 2);
+    }
+  }
+  double error = 0, force = 0;
+  std::printf("%8s %8s %8s\n", "x/H", "p*", "exact");
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    mean[k] /= samples;
+    const double exact = exact_pressure(places[k], angle);
+    error += std::pow(mean[k] - exact, 2);
+    force += 0.05 * mean[k];
+    if (k % 5 == 0) std::printf("%8.2f %8.4f %8.4f\n", places[k], mean[k], exact);
+  }
+  stagnation /= samples;
+  std::printf("H/dx %g, angle %g: p* at the stagnation point %.4f, scatter %.4f; L2 of p* %.4f; force/(2H sin) %.4f\n", n, angle * 180 / pi,
+              stagnation, std::sqrt(std::max(squares / samples - stagnation * stagnation, 0.0)),
+              std::sqrt(error / static_cast<double>(places.size())), force / (2 * sin));
+  double in = 0, out = 0;
+  for (const OpeningState& state : simulation.openings()) {
+    in += state.mass_in;
+    out += state.mass_out;
+    std::printf("opening: discharge %.4f, in %llu, out %llu particles\n", state.discharge,
+                static_cast<unsigned long long>(state.particles_in), static_cast<unsigned long long>(state.particles_out));
+  }
+  std::printf("particles %zu, mass inside %.3f, in %.3f, out %.3f\n", simulation.state().particles, simulation.energies().mass, in, out);
+  return 0;
+}
+
+}  // namespace
+}  // namespace wavetank
+
+int main(int count, char** arguments) {
+  wavetank::Words words;
+  for (int k = 1; k < count; ++k) {
+    const std::string word = arguments[k];
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      std::fprintf(stderr, "jet_on_plate: %s is not WORD=VALUE\n", word.c_str());
+      return 2;
+    }
+    words[word.substr(0, equals)] = word.substr(equals + 1);
+  }
+  try {
+    return wavetank::run(words);
+  } catch (const wavetank::Error& error) {
+    std::fprintf(stderr, "jet_on_plate: %s\n", error.what());
+    return 2;
+  }
+}
