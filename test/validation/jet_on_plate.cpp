@@ -97,7 +97,6 @@ int run(const Words& words) {
   const double depth = 11 * spacing;  // of the nozzle: its pocket is six spacings
   const double top = mouth.z() + depth + 1;
   scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), false};
-  scene.tank.splash_guard = false;
   BodyCase nozzle;
   nozzle.name = "nozzle";
   MeshSource box;
