@@ -413,7 +413,13 @@ std::vector<Part> add_openings(const Case& checked, const std::vector<Part>& par
   if (layout.openings.empty()) return opened;
   check_periods(checked, layout);
   OpenSpace closed(layout.domain, checked.dimensions, layout.spacing, *basin.grid, Walls::all, basin.top);
-  closed.flood(layout.particles.empty() ? fronts_of(layout.openings, layout.spacing) : layout.particles);
+  std::vector<Vector3d> water = layout.particles;
+  for (std::size_t o = 0; o < layout.openings.size(); ++o) {
+    if (!layout.particles.empty() && checked.openings[o].kind == OpeningKind::outlet) continue;
+    const std::vector<Vector3d> fronts = fronts_of({layout.openings[o]}, layout.spacing);
+    water.insert(water.end(), fronts.begin(), fronts.end());
+  }
+  closed.flood(water);
   check_openings(layout.openings, basin, closed, layout.spacing);
   add_water_beyond(regions, layout);
   if (layout.particles.empty()) throw Error("there is no water at the start, neither by fluid/fill nor behind an opening");

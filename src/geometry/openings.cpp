@@ -121,8 +121,9 @@ void set_columns(const std::function<bool(const Vector3d&)>& is_high, Opening& o
   }
   for (std::size_t c = 0; c < parts.size(); ++c) {
     if (opening.column_of[c] >= 0) continue;
-    opening.column_of[c] = goes_to[c] == static_cast<int>(c) ? 0 : opening.column_of[goes_to[c]];
-    if (goes_to[c] == static_cast<int>(c) || parts[c].area <= 0) continue;
+    if (goes_to[c] == static_cast<int>(c)) continue;  // beside the outline
+    opening.column_of[c] = opening.column_of[goes_to[c]];
+    if (parts[c].area <= 0) continue;
     Opening::Column& column = opening.columns[opening.column_of[c]];
     const double area = column.area + parts[c].area;
     column.place = (column.area * column.place + parts[c].area * parts[c].place) / area;
@@ -217,6 +218,9 @@ Opening place_opening(const OpeningCase& given, const Case& checked, const Basin
       column.wet = (before != nullptr && height < before->level) || held_from_beyond(given, height, basin.top.way);
     }
   }
+  const bool all_dry = std::none_of(opening.columns.begin(), opening.columns.end(), [](const Opening::Column& c) { return c.wet; });
+  if (given.kind == OpeningKind::inlet && all_dry)
+    throw Error(called(opening) + " has its level, " + describe(*given.level) + " m, below it, so that nothing comes in; raise the level");
   return opening;
 }
 
@@ -400,6 +404,28 @@ std::vector<Opening> place_openings(const Case& checked, const Basin& basin, dou
   return openings;
 }
 
+namespace {
+
+/// Of a column's part of the pocket: its rows, what is beside it by more than the guard leaves a particle in a wall, and just behind the
+/// back.
+std::vector<Vector3d> places_behind(const Opening& opening, const Opening::Column& column, double spacing) {
+  constexpr double beside = 0.6;  // of a cell, from a column's middle: within the outline, or hardly outside
+  std::vector<double> depths;
+  for (int k = 0; k <= opening.rows; ++k) depths.push_back((k + 0.5) * spacing);
+  depths.push_back(opening.pocket + 0.1 * spacing);
+  std::vector<Vector3d> places;
+  for (const double depth : depths)
+    for (const double across : {-beside, 0.0, beside})
+      for (const double up : {-beside, 0.0, beside}) {
+        if (opening.width == 0 && across != 0) continue;
+        const Vector3d aside = across * opening.cell_size[0] * opening.across + up * opening.cell_size[1] * opening.up;
+        places.push_back(column.place + aside - depth * opening.normal);
+      }
+  return places;
+}
+
+}  // namespace
+
 void check_openings(const std::vector<Opening>& openings, const Basin& basin, const OpenSpace& closed, double spacing) {
   for (const Opening& opening : openings) {
     const std::string behind = called(opening) + " takes a pocket of " + describe(opening.pocket) + " m behind it, which ";
@@ -412,8 +438,7 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
       if (!closed.reached(front, front))
         throw Error(called(opening) + " opens where no water can come to, about " + describe(front) +
                     " m; its normal must point into the water");
-      for (int k = 0; k <= opening.rows; ++k) {
-        const Vector3d place = in_row(opening, column, k, spacing);
+      for (const Vector3d& place : places_behind(opening, column, spacing)) {
         if (closed.reached(place, place))
           throw Error(behind + "meets the space that water can reach, about " + describe(place) +
                       " m; there must be nothing behind an "

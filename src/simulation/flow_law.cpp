@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "texts.h"
@@ -9,6 +10,7 @@
 #include "wavetank/common/expression.h"
 #include "wavetank/common/record_file.h"
 #include "wavetank/scene/file_path.h"
+#include "wavetank/scene/upward.h"
 
 namespace wavetank {
 namespace {
@@ -30,7 +32,7 @@ std::function<double(double)> lines_through(std::vector<double> times, std::vect
 }
 
 std::function<double(double)> recorded(const FlowRecordCase& record, const std::string& what, const std::string& case_directory,
-                                       const ResourceResolver& resolve) {
+                                       const ResourceResolver& resolve, double& greatest) {
   std::string path;
   try {
     path = file_path("flow record", record.file, case_directory, resolve);
@@ -42,7 +44,12 @@ std::function<double(double)> recorded(const FlowRecordCase& record, const std::
   std::vector<double> times = file.times(record.time_column);
   std::vector<double> values = file.numbers(record.column.empty() ? word_of(record.quantity) : record.column);
   for (double& time : times) time += record.delay;
-  for (double& value : values) value *= record.factor;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] *= record.factor;
+    if (values[k] < 0 && record.quantity != FlowQuantity::head)
+      throw Error(file.place_of_row(k) + ": the " + word_of(record.quantity) + " is " + number(values[k]) + "; it must be at least 0");
+  }
+  greatest = *std::max_element(values.begin(), values.end());
   return lines_through(std::move(times), std::move(values));
 }
 
@@ -51,7 +58,8 @@ std::function<double(double)> recorded(const FlowRecordCase& record, const std::
 FlowLaw::FlowLaw(const OpeningCase& opening, const std::string& case_directory, const ResourceResolver& resolve) : name_(opening.name) {
   if (opening.record) {
     quantity_ = opening.record->quantity;
-    value_ = recorded(*opening.record, "opening '" + name_ + "'", case_directory, resolve);
+    greatest_recorded_.emplace();
+    value_ = recorded(*opening.record, "opening '" + name_ + "'", case_directory, resolve, *greatest_recorded_);
     return;
   }
   const auto take = [&](const std::string& text, FlowQuantity quantity) {
@@ -97,8 +105,24 @@ std::vector<double> profile_of(const Opening& opening, FlowProfile profile, cons
   return shape;
 }
 
-double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
+double FlowLaw::greatest(double duration) const {
+  if (greatest_recorded_) return *greatest_recorded_;
   constexpr int looks = 1000;
+  double greatest = at(0);
+  for (int k = 1; k <= looks; ++k) greatest = std::max(greatest, at(duration * k / looks));
+  return greatest;
+}
+
+double fastest_by_head(const OpeningCase& given, const Opening& opening, const FlowLaw& law, const Case& scene) {
+  if (given.kind != OpeningKind::pressure || law.quantity() != FlowQuantity::head) return 0;
+  const Top top = top_of(scene);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Opening::Column& column : opening.columns) lowest = std::min(lowest, top.way * column.place[top.axis]);
+  const double head = top.way > 0 ? law.greatest(scene.duration) : -law.at(0);
+  return std::sqrt(2 * std::abs(scene.gravity[top.axis]) * std::max(head - lowest, 0.0));
+}
+
+double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
   std::vector<bool> wet;
   double area = 0;
   for (const Opening::Column& column : opening.columns) {
@@ -110,8 +134,7 @@ double fastest_flow(const OpeningCase& given, const Opening& opening, const Flow
   const double peak = *std::max_element(profile.begin(), profile.end());
   if (given.command) return peak * given.command->greatest_discharge.value_or(0) / area;
   if (!law.quantity() || law.quantity() == FlowQuantity::head) return 0;
-  double greatest = 0;
-  for (int k = 0; k <= looks; ++k) greatest = std::max(greatest, law.at(duration * k / looks));
+  const double greatest = law.greatest(duration);
   return peak * (law.quantity() == FlowQuantity::discharge ? greatest / area : greatest);
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double least_filling = 0.45;    // of what walls leave of the kernel: less is above the water
 constexpr double drain_behind = 0.25;     // spacings behind the last row, where particles leave: none that comes in is so far back
+constexpr double past_the_back = 0.05;    // spacings behind the pocket's back, to where drains reach
 constexpr double fastest_of_sound = 0.1;  // of the speed of sound
 
 }  // namespace
@@ -111,14 +112,23 @@ void OpeningFlows::hold(Solver& solver) const {
   if (!any()) return;
   std::vector<Drain> drains;
   for (const Opening& opening : openings_) {
-    const double begin = opening.depth + drain_behind * spacing_, end = opening.pocket + spacing_;
-    Drain drain;
-    drain.centre = opening.centre - 0.5 * (begin + end) * opening.normal;
-    const double across = std::max(0.5 * opening.width, spacing_) + 0.1 * spacing_, up = 0.5 * opening.height + 0.1 * spacing_;
-    drain.half_edges.col(0) = 0.5 * (end - begin) * opening.normal;
-    drain.half_edges.col(1) = across * opening.across;
-    drain.half_edges.col(2) = up * opening.up;
-    drains.push_back(drain);
+    const double begin = opening.depth + drain_behind * spacing_, end = opening.pocket + past_the_back * spacing_;
+    const Vector3d back = 0.5 * (begin + end) * opening.normal;
+    // a rectangle has one drain, a disc one a column, which its corners are none of
+    const auto add = [&](const Vector3d& place, double across, double up) {
+      Drain drain;
+      drain.centre = place - back;
+      drain.half_edges.col(0) = 0.5 * (end - begin) * opening.normal;
+      drain.half_edges.col(1) = across * opening.across;
+      drain.half_edges.col(2) = up * opening.up;
+      drains.push_back(drain);
+    };
+    const double skin = 0.1 * spacing_, across = dimensions_ == 2 ? spacing_ : 0.5 * opening.width + skin;
+    if (opening.outline.size() <= 4) {
+      add(opening.centre, across, 0.5 * opening.height + skin);
+    } else {
+      for (const Opening::Column& column : opening.columns) add(column.place, 0.8 * opening.cell_size[0], 0.8 * opening.cell_size[1]);
+    }
   }
   solver.set_drains(drains);
   solver.set_zones(zones());
@@ -146,7 +156,10 @@ void OpeningFlows::set_given_speeds(std::size_t o, double value, bool is_velocit
   double area = 0;
   for (std::size_t c = 0; c < profile.size(); ++c)
     if (columns.wet[c]) area += openings_[o].columns[c].area;
-  const double mean = is_velocity ? value : area > 0 ? value / area : 0.0;
+  double mean = is_velocity ? value : area > 0 ? value / area : 0.0;
+  const double peak = *std::max_element(profile.begin(), profile.end());
+  // where but little of an outlet is still wet, that cannot carry what was asked for
+  if (sign < 0 && mean * peak > fastest_of_sound * sound_speed_) mean = fastest_of_sound * sound_speed_ / peak;
   for (std::size_t c = 0; c < profile.size(); ++c) columns.speed[c] = sign * mean * profile[c];
 }
 
@@ -186,12 +199,6 @@ void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) cons
     set_given_speeds(o, value, laws_[o].quantity() == FlowQuantity::velocity, 1, columns);
     return;
   }
-  double flow = 0, area = 0;
-  for (std::size_t c = 0; c < count; ++c) {
-    if (!columns.wet_before[c]) continue;
-    flow += columns.speed[c] * opening.columns[c].area;
-    area += opening.columns[c].area;
-  }
   if (given.kind == OpeningKind::outlet && (given.command || laws_[o].quantity())) {
     set_given_speeds(o, value, false, -1, columns);
   } else if (given.level || given.kind == OpeningKind::pressure) {
@@ -205,10 +212,6 @@ void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) cons
       columns.wet[c] = columns.wet_before[c] || head > 0;
     }
   }
-  // what is left above the water goes with it
-  const double mean = area > 0 ? std::min(flow / area, 0.0) : 0.0;
-  for (std::size_t c = 0; c < count; ++c)
-    if (!columns.wet[c]) columns.speed[c] = mean;
 }
 
 void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming) {
@@ -216,7 +219,7 @@ void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_ste
   const double last_row = (opening.rows - 0.5) * spacing_;
   for (std::size_t c = 0; c < opening.columns.size(); ++c) {
     double& phase = places_[o].phase[c];
-    if (!columns.wet[c] && columns.speed[c] >= 0) continue;
+    if (!columns.wet[c]) continue;
     phase += columns.speed[c] * time_step;
     if (phase <= -(0.5 + drain_behind) * spacing_) phase += spacing_;  // its last row has left
     if (phase < 0.5 * spacing_) continue;
@@ -247,8 +250,6 @@ void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
     Columns columns = columns_of(o, {begin, begin + static_cast<std::ptrdiff_t>(count)});
     first += count;
     const double value = law_at(o, time, time_step), to_plane = 0.5 * support_;
-    if (cases_[o].kind == OpeningKind::inlet)  // above its level there is air, and spray
-      for (const int column : opening.column_of) zones[o].is_free.push_back(columns.wet[column] ? 0 : 1);
     WaterBefore& before = places_[o].before;
     Columns last_row;
     before.add(time, {columns.speed, columns.pressure}, (to_plane + opening.pocket) / sound_speed_);
@@ -262,8 +263,10 @@ void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
       if (single_)  // as the device has it
         for (double& speed : columns.speed) speed = static_cast<float>(speed);
       for (const int column : opening.column_of) {
-        zones[o].speed.push_back(columns.speed[column]);
-        zones[o].pressure.push_back(columns.pressure[column]);
+        zones[o].speed.push_back(column < 0 ? 0.0 : columns.speed[column]);
+        zones[o].pressure.push_back(column < 0 ? 0.0 : columns.pressure[column]);
+        // where there is air, drops fall as they would, to where they leave
+        if (layer == 0) zones[o].is_free.push_back(column >= 0 && columns.wet[column] ? 0 : 1);
       }
       if (layer == opening.rows - 1) last_row = columns;
       if (layer > 0) continue;
@@ -289,9 +292,12 @@ void OpeningFlows::after_step(const StepReport& report) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < openings_.size(); ++o) {
       const Opening& opening = openings_[o];
-      const double distance =
-          (particle.position - opening.centre + opening.pocket * opening.normal).norm() - 0.5 * std::max(opening.width, opening.height);
-      if (distance < least) least = distance, by = o;
+      const Vector3d way = particle.position - opening.centre;
+      // out of its pocket, by the side that is farthest off
+      const double outside =
+          std::max({std::abs(way.dot(opening.across)) - 0.5 * opening.width, std::abs(way.dot(opening.up)) - 0.5 * opening.height,
+                    way.dot(opening.normal), -way.dot(opening.normal) - opening.pocket});
+      if (outside < least) least = outside, by = o;
     }
     states_[by].mass_out += particle.mass;
     ++states_[by].particles_out;
@@ -303,9 +309,13 @@ void OpeningFlows::command(std::size_t opening, double time, double discharge) {
   const std::string what = "opening '" + openings_.at(opening).name + "' ";
   if (!cases_[opening].command) throw Error(what + "is not commanded: openings/" + std::to_string(opening) + "/command is not given");
   double area = 0;
-  for (const Opening::Column& column : openings_[opening].columns)
-    if (column.wet || cases_[opening].kind != OpeningKind::inlet) area += column.area;
-  const double most = fastest_of_sound * sound_speed_ * area;
+  std::vector<bool> wet;
+  for (const Opening::Column& column : openings_[opening].columns) {
+    wet.push_back(column.wet || cases_[opening].kind != OpeningKind::inlet);
+    if (wet.back()) area += column.area;
+  }
+  const std::vector<double> profile = profile_of(openings_[opening], cases_[opening].profile, wet);
+  const double most = fastest_of_sound * sound_speed_ * area / *std::max_element(profile.begin(), profile.end());
   const double limited = std::min(discharge, cases_[opening].command->greatest_discharge.value_or(discharge));
   if (!std::isfinite(discharge) || discharge < 0 || limited > most)
     throw Error(what + "was commanded a discharge of " + number(discharge) + "; it must be from 0 to " + number(most) +
@@ -330,6 +340,7 @@ std::vector<char> OpeningFlows::save() const {
 }
 
 void OpeningFlows::restore(const std::vector<char>& bytes) {
+  coming_to_.clear();
   std::vector<double> values(bytes.size() / sizeof(double));
   if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
   auto next = values.cbegin();

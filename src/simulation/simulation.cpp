@@ -130,7 +130,8 @@ std::vector<FlowLaw> Simulation::Parts::laws_of(const Case& checked) const {
 double Simulation::Parts::fastest_inflow(const Case& checked) const {
   double fastest_of_all = 0;
   for (std::size_t o = 0; o < laws.size(); ++o)
-    fastest_of_all = std::max(fastest_of_all, fastest_flow(checked.openings[o], layout.openings[o], laws[o], checked.duration));
+    fastest_of_all = std::max({fastest_of_all, fastest_flow(checked.openings[o], layout.openings[o], laws[o], checked.duration),
+                               fastest_by_head(checked.openings[o], layout.openings[o], laws[o], checked)});
   if (fastest_of_all > 0) fastest_of_all = std::hypot(fastest_of_all, expected_speed(checked, layout));  // and falls on from there
   return fastest_of_all;
 }

@@ -51,6 +51,7 @@ BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
       {"MOVING_WALLS", choice.moving_walls},
       {"MOVING_FRAME", choice.moving_frame},
       {"THIN_WALLS", choice.thin_walls},
+      {"OPENINGS", !scene.openings.empty()},
       {"LONG_AXES", choice.long_axes},
       {"GUARD_IMPULSES", anything_free(scene)},
       {"SHEPARD_GEOMETRIC", shepard == ShepardFactor::geometric || shepard == ShepardFactor::monolithic},

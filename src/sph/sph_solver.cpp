@@ -13,6 +13,15 @@
 namespace wavetank {
 namespace {
 
+/// Particles that there may be: where water comes in, as many as fill the tank.
+std::size_t room_for(const Case& scene, const Layout& layout) {
+  if (scene.openings.empty()) return layout.particles.size();
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != 1 || scene.dimensions == 3) cells *= std::ceil((layout.domain.max[axis] - layout.domain.min[axis]) / layout.spacing);
+  return std::max(layout.particles.size(), static_cast<std::size_t>(std::min(cells, 1e9)));
+}
+
 /// As field::motion_friction has them: the law, and its roughness or coefficient.
 std::array<double, 2> friction_values(const FrictionCase& friction) {
   switch (friction.law) {
@@ -76,7 +85,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       long_axes_(long_axes(discretisation, scene.numerics.precision)),
       case_walls_(scene, layout, discretisation),
       tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
-      grid_shape_(grid_shape(discretisation, tiling_, layout.particles.size())),
+      grid_shape_(grid_shape(discretisation, tiling_, room_for(scene, layout))),
       state_(make_array(ParticleArray::state)),
       rates_(make_array(ParticleArray::rates)),
       gradient_(device, gradient_components(rows.methods(scene)) * static_cast<std::size_t>(stride_)),

@@ -57,6 +57,8 @@ void SphSolver<Real>::set_count(int count) {
 template <class Real>
 void SphSolver<Real>::let_in(const NewParticles& particles) {
   check(particles);
+  // before anything has changed: a step that finds no memory for them at its end is lost
+  reserve(count_ + static_cast<int>(waiting_.position.size() + particles.position.size()));
   open_ = true;
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add(waiting_.position, particles.position);

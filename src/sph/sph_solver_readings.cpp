@@ -5,7 +5,7 @@
 namespace wavetank {
 namespace {
 
-constexpr std::size_t point_results = 6;  // pressure, filling, γ, velocity
+constexpr std::size_t point_results = 6;  // pressure, filling, γ, and where there are openings the velocity
 
 }  // namespace
 
@@ -53,7 +53,9 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
   if (points.binding != bindings_) bind(points);
   points.kernel.launch(points.count);
-  const std::vector<Real> results = points.results.download(point_results * static_cast<std::size_t>(points.count));
+  const bool velocities = options_.at("OPENINGS") != 0;
+  std::vector<Real> results = points.results.download((velocities ? point_results : 3) * static_cast<std::size_t>(points.count));
+  results.resize(point_results * static_cast<std::size_t>(points.count), Real(0));
   std::vector<PointValue> values(points.count);
   for (int i = 0; i < points.count; ++i) {
     const auto result = [&](int k) { return static_cast<double>(results[static_cast<std::size_t>(k) * points.count + i]); };

@@ -106,6 +106,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   id_.upload(id);
   sort_all();
   upload_rates(rates);
+  masses_let_in_.clear();
 }
 
 /// Given in the order of their ids, into that which the particles have on the device.

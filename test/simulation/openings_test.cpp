@@ -250,5 +250,88 @@ TEST_F(Openings, AFreeOutletSendsBackNoSound) {
   EXPECT_LT(sent_back, 0.05 * incident);
 }
 
+/// A round nozzle in a box that hangs over an empty tank, whose floor has a drain at each end.
+Case fountain(Integrator integrator) {
+  Case scene = box_case(Vector3d(0.8, 0.4, 0.6), 0.1, 0.025);
+  scene.fluid.fill.clear();
+  scene.fluid.sound_speed = 40;
+  scene.duration = 1;
+  BodyCase nozzle;
+  nozzle.name = "nozzle";
+  nozzle.shape = Box{Vector3d(0.05, 0.05, 0.3), Vector3d(0.35, 0.35, 0.5)};
+  scene.bodies.push_back(nozzle);
+  OpeningCase hose = opening("hose", OpeningKind::inlet, Vector3d(0.2, 0.2, 0.3), -Vector3d::UnitZ(), 0);
+  hose.size.reset();
+  hose.diameter = 0.12;
+  hose.body = "nozzle";
+  hose.velocity = "1.5";
+  hose.profile = FlowProfile::parabolic;
+  OpeningCase near = opening("near", OpeningKind::outlet, Vector3d(0.2, 0.2, 0), Vector3d::UnitZ(), 0.2);
+  near.size = std::array<double, 2>{0.2, 0.2};
+  OpeningCase far = near;
+  far.name = "far";
+  far.centre.x() = 0.6;
+  scene.openings = {hose, near, far};
+  scene.numerics.integrator = integrator;
+  return scene;
+}
+
+/// What came in by each opening less what left by it, and all water's mass, kg.
+void expect_account(const Case& scene, double duration, const std::vector<double>& least_in, const std::vector<double>& least_out) {
+  Simulation simulation(scene);
+  const double before = mass_of(simulation);
+  run_to(simulation, duration);
+  double change = 0;
+  for (std::size_t o = 0; o < scene.openings.size(); ++o) {
+    const OpeningState& state = simulation.openings()[o];
+    std::printf("%s: %.4f kg in, %.4f kg out\n", scene.openings[o].name.c_str(), state.mass_in, state.mass_out);
+    EXPECT_GE(state.mass_in, least_in[o]) << scene.openings[o].name;
+    EXPECT_GE(state.mass_out, least_out[o]) << scene.openings[o].name;
+    if (least_in[o] == 0) EXPECT_EQ(state.mass_in, 0) << scene.openings[o].name;
+    if (least_out[o] == 0) EXPECT_EQ(state.mass_out, 0) << scene.openings[o].name;
+    change += state.mass_in - state.mass_out;
+  }
+  EXPECT_NEAR(mass_of(simulation) - before, change, 1e-6 * mass_of(simulation));
+}
+
+// A disc in a body, in 3-D, a jet that falls into the drain below it and leaves the other dry.
+TEST_F(Openings, AJetLeavesByTheDrainBelowIt) {
+  const double discharge = 1000 * 1.5 * 0.25 * std::acos(-1.0) * 0.12 * 0.12;
+  expect_account(fountain(Integrator::predictor_corrector), 0.5, {0.45 * discharge, 0, 0}, {0, 0.1 * discharge, 0});
+}
+
+// Heads on either side of a tank, and an outlet that asks for more than comes.
+TEST_F(Openings, AHeadAndADischargeMeetTheirAccounts) {
+  Case scene = tank_with_outlet();
+  scene.openings.clear();
+  OpeningCase head = opening("head", OpeningKind::pressure, Vector3d(0, 0, 0.12), Vector3d::UnitX(), 0.24);
+  head.head = "0.55";
+  OpeningCase outlet = opening("outlet", OpeningKind::outlet, Vector3d(1.2, 0, 0.3), -Vector3d::UnitX(), 0.6);
+  outlet.discharge = "0.1";
+  scene.openings = {head, outlet};
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  scene.numerics.shifting = Shifting::michel;
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.density_diffusion = DensityDiffusion::none;
+  expect_account(scene, 0.8, {5, 0}, {0, 60});
+}
+
+// Water that is asked for where hardly any is left: the speed stays within a tenth of the speed of sound, and the run goes on.
+TEST_F(Openings, AnOutletThatRunsDryDoesNotEndTheRun) {
+  Case scene = tank_with_outlet();
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1.2, 0, 0.2)}};
+  scene.openings[0].level.reset();
+  scene.openings[0].discharge = "0.4";
+  expect_account(scene, 1.5, {0}, {150});
+}
+
+TEST_F(Openings, AnInletBelowItsLevelIsRefused) {
+  Case scene = channel("0.4");
+  scene.openings[0].centre.z() = 0.4;
+  scene.openings[0].size = std::array<double, 2>{1.0, 0.2};
+  scene.openings[0].level = 0.25;
+  EXPECT_NE(error_of([&scene] { Simulation simulation(scene); }).find("opening 'start'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace wavetank

@@ -22,6 +22,8 @@ class RecordFile {
   /// "'time', 'surge' and 'heave'"
   std::string listed_columns() const;
 
+  /// Likewise of a row of values, from 0.
+  std::string place_of_row(std::size_t row) const { return place(rows_[row].line); }
   /// Opens a message: what, file and line (0: the whole file).
   std::string place(int line) const;
 

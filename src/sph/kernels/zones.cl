@@ -9,9 +9,10 @@ typedef struct {
   int zone, values;
 } in_zone_t;
 
-// A cell's number along one axis of the front: beside the outermost cells, as far as half of one, these count.
+// A cell's number along one axis of the front: beside the outermost cells, as far as the guard may leave a particle in a wall, these count.
+#define BESIDE R(0.3)
 INLINE int cell_along(real at, real cells) {
-  if (at < -R(0.5) || at > cells + R(0.5)) return NO_CELL;
+  if (at < -BESIDE || at > cells + BESIDE) return NO_CELL;
   return (int)fmin(fmax(floor(at), R(0.0)), cells - R(1.0));
 }
 
