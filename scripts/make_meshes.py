@@ -88,6 +88,18 @@ def flume(profile, rim, width):
     return triangles
 
 
+def wedge(outline, width):
+    """A closed prism across the x-z plane: its outline as (x, z) turns left as seen from y = -infinity."""
+    near, far = ([(x, y, z) for x, z in outline] for y in (-0.5 * width, 0.5 * width))
+    triangles = []
+    for k in range(len(outline)):
+        after = (k + 1) % len(outline)
+        triangles += quad(near[k], far[k], far[after], near[after])
+    for k in range(1, len(outline) - 1):
+        triangles += [(near[0], near[k], near[k + 1]), (far[0], far[k + 1], far[k])]
+    return triangles
+
+
 def hull(length, beam, depth, stations):
     """A small boat's hull, closed by a flat deck: V-shaped sections under a chine, a transom at x = 0, a bow that comes to a point at deck height.
 
@@ -150,6 +162,8 @@ def main():
         "wave_flume.stl": flume(profile=[(-0.6, 0), (4, 0), (10, 0.6)], rim=0.9, width=0.4),
         # A piston flume with its face at x = 1 m and a beach of 1 : 6 from x = 4 m on.
         "piston_flume.stl": flume(profile=[(0.6, 0), (4, 0), (7.3, 0.55)], rim=0.6, width=0.4),
+        # A weir with a sharp crest 0.2 m high, whose back falls off at 63°.
+        "weir.stl": wedge(outline=[(2.0, 0.0), (2.1, 0.0), (2.0, 0.2)], width=0.4),
         "ball.stl": sphere(centre=(0, 0, 0), radius=0.5, subdivisions=2),  # few triangles: a body afloat costs time by its triangles
         "boat.stl": hull(length=0.7, beam=0.26, depth=0.14, stations=12),
     }

@@ -117,7 +117,8 @@ std::string number(double value) {
 
 CaseSize size_of(const Case& scene, const Layout& layout, const RigidWorld& world) {
   CaseSize size;
-  size.water_volume = std::accumulate(layout.volumes.begin(), layout.volumes.end(), 0.0);
+  // without what is in the pockets behind openings
+  size.water_volume = std::accumulate(layout.volumes.begin(), layout.volumes.end() - static_cast<std::ptrdiff_t>(layout.beyond), 0.0);
   size.water_mass = scene.fluid.density * size.water_volume;
   size.least_depth = least_depth(layout);
   for (std::size_t o = 0; o < world.count(); ++o) {

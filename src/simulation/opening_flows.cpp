@@ -163,14 +163,17 @@ void OpeningFlows::set_given_speeds(std::size_t o, double value, bool is_velocit
   for (std::size_t c = 0; c < profile.size(); ++c) columns.speed[c] = sign * mean * profile[c];
 }
 
-bool OpeningFlows::is_one_way(std::size_t o) const {
-  return cases_[o].kind == OpeningKind::outlet && !cases_[o].level && !cases_[o].command && !laws_[o].quantity();
+bool OpeningFlows::lets_in(std::size_t o, std::size_t column) const {
+  const OpeningCase& given = cases_[o];
+  if (given.kind != OpeningKind::outlet || given.command || laws_[o].quantity()) return true;
+  return given.level && height_of(openings_[o].columns[column].place) < way_ * *given.level;
 }
 
-/// Sound may move what is beyond a free outlet to and fro, but nothing comes in there.
+/// Sound may move what is beyond a free outlet, or one over air, to and fro, but nothing comes in there.
 void OpeningFlows::hold_back(std::size_t o, double time_step, Columns& columns) const {
   for (std::size_t c = 0; c < columns.speed.size(); ++c)
-    if (places_[o].phase[c] + columns.speed[c] * time_step >= 0.5 * spacing_) columns.speed[c] = std::min(columns.speed[c], 0.0);
+    if (!lets_in(o, c) && places_[o].phase[c] + columns.speed[c] * time_step >= 0.5 * spacing_)
+      columns.speed[c] = std::min(columns.speed[c], 0.0);
 }
 
 OpeningFlows::Columns OpeningFlows::columns_of(std::size_t o, const std::vector<PointValue>& before) const {
@@ -259,7 +262,7 @@ void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
       columns.speed = std::move(late.speed);
       columns.pressure = std::move(late.pressure);
       apply_law(o, value, columns);
-      if (is_one_way(o)) hold_back(o, time_step, columns);
+      hold_back(o, time_step, columns);
       if (single_)  // as the device has it
         for (double& speed : columns.speed) speed = static_cast<float>(speed);
       for (const int column : opening.column_of) {

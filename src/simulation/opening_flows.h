@@ -79,7 +79,8 @@ class OpeningFlows {
   void set_given_speeds(std::size_t o, double value, bool is_velocity, double sign, Columns& columns) const;
   double commanded_discharge(std::size_t o, double time, double time_step);
   void let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming);
-  bool is_one_way(std::size_t o) const;
+  /// Whether water may come in by a column.
+  bool lets_in(std::size_t o, std::size_t column) const;
   void hold_back(std::size_t o, double time_step, Columns& columns) const;
   std::vector<ImposedZone> zones() const;
   double height_of(const Vector3d& place) const { return up_.dot(place); }

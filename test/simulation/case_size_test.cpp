@@ -23,6 +23,20 @@ BodyCase box_body(const std::string& name, const Vector3d& from, const Vector3d&
   return body;
 }
 
+TEST(CaseSize, IsThatOfTheTankWithoutPocketsBehindOpenings) {
+  Case scene = box_case(Vector3d(1, 0, 0.6), 0.3, 0.025);
+  OpeningCase inlet;
+  inlet.name = "inlet";
+  inlet.centre = Vector3d(0, 0, 0.15);
+  inlet.normal = Vector3d::UnitX();
+  inlet.size = std::array<double, 2>{1, 0.2};
+  inlet.velocity = "0.5";
+  scene.openings = {inlet};
+  const CaseSize size = size_of_case(scene);
+  EXPECT_NEAR(size.water_volume, 0.3, 1e-9);
+  EXPECT_NEAR(size.least_depth, 0.3, 1e-9);
+}
+
 TEST(CaseSize, OfTankWaterAndBodies) {
   Case scene = box_case(Vector3d(1, 0.5, 0.6), 0.3, 0.05);
   scene.bodies = {box_body("block", {0.2, 0.1, 0.2}, {0.4, 0.3, 0.3}, 400), box_body("stone", {0.6, 0.1, 0.1}, {0.8, 0.3, 0.25}, 2500),
