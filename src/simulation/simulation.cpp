@@ -64,7 +64,8 @@ void tell_of_noise(const Case& scene) {
   if (walls.method == WallMethod::boundary_integral && walls.shepard == ShepardFactor::none)
     log(LogLevel::warning,
         "numerics/walls/shepard is none: walls push unevenly, and water at rest does not stay so; it is for comparison only.");
-  if (scene.numerics.density_diffusion != DensityDiffusion::none) return;
+  if (scene.numerics.density_diffusion != DensityDiffusion::none || scene.numerics.scheme != Scheme::delta_sph)
+    return;  // the others diffuse by themselves
   log(LogLevel::warning,
       "numerics/density_diffusion is none: nothing damps the noise of pressures, and water at rest does not stay so for long; choose "
       "fourtakas or antuono unless that is what you look at.");
