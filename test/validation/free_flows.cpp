@@ -17,30 +17,14 @@
 #include "wavetank/compute/device.h"
 #include "wavetank/scene/case_reader.h"
 #include "wavetank/sph/solver.h"
+#include "word_arguments.h"
 
 namespace wavetank {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-using Words = std::map<std::string, std::string>;
-
-double number(const Words& words, const std::string& name, double otherwise) {
-  const auto found = words.find(name);
-  return found == words.end() ? otherwise : std::stod(found->second);
-}
-
-template <class Choice>
-void choose(const Words& words, const std::string& name, Choice& value) {
-  const auto found = words.find(name);
-  if (found == words.end()) return;
-  for (const MethodWord<Choice>& known : method_words<Choice>())
-    if (found->second == known.word) {
-      value = known.choice;
-      return;
-    }
-  throw Error(name + " is " + found->second + ", which is no word of that key");
-}
+using namespace validation;
 
 class Flow {
  public:

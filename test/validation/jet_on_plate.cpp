@@ -15,30 +15,14 @@
 #include "wavetank/common/error.h"
 #include "wavetank/scene/methods.h"
 #include "wavetank/simulation/simulation.h"
+#include "word_arguments.h"
 
 namespace wavetank {
 namespace {
 
 const double pi = std::acos(-1.0);
 
-using Words = std::map<std::string, std::string>;
-
-double number(const Words& words, const std::string& name, double otherwise) {
-  const auto found = words.find(name);
-  return found == words.end() ? otherwise : std::stod(found->second);
-}
-
-template <class Choice>
-void choose(const Words& words, const std::string& name, Choice& value) {
-  const auto found = words.find(name);
-  if (found == words.end()) return;
-  for (const MethodWord<Choice>& known : method_words<Choice>())
-    if (found->second == known.word) {
-      value = known.choice;
-      return;
-    }
-  throw Error(name + " is " + found->second + ", which is no word of that key");
-}
+using namespace validation;
 
 /// Distance from the stagnation point, in H, towards the side that most water goes to, at which the speed is q U; −1 < q < 1.
 double place_of(double q, double angle) {
