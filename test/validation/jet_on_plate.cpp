@@ -80,7 +80,7 @@ int run(const Words& words) {
   const Vector3d along(cos, 0, -sin), mouth = Vector3d(axis, 0, 0) - distance * along;
   const double depth = 11 * spacing;  // of the nozzle: its pocket is six spacings
   const double top = mouth.z() + depth + 1;
-  scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), false};
+  scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), true};
   BodyCase nozzle;
   nozzle.name = "nozzle";
   MeshSource box;
