@@ -9,6 +9,7 @@
 #include "intruding_walls.h"
 #include "mesh_scale.h"
 #include "mesh_topology.h"
+#include "opening_pockets.h"
 #include "openings.h"
 #include "polygon.h"
 #include "wall_facing.h"

@@ -21,11 +21,6 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
 /// Where water from them comes out, half a spacing before each column, m.
 std::vector<Vector3d> fronts_of(const std::vector<Opening>& openings, double spacing);
 
-/// Cuts what of a wall lies in the openings and their pockets out of it, and adds the pockets' walls. Throws Error for an opening that lies
-/// in no plane of the wall; `whose` is for the message.
-void open_outline(Outline& outline, const std::vector<Opening>& openings, double spacing, const std::string& whose);
-void open_mesh(TriangleMesh& mesh, const std::vector<Opening>& openings, double spacing, const std::string& whose);
-
 /// The water beyond the openings: particles, volumes and levels, after all others of the layout.
 void add_water_beyond(const std::vector<FilledRegion>& regions, Layout& layout);
 
