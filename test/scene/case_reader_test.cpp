@@ -205,7 +205,7 @@ TEST(CaseReader, EveryDemoCaseReads) {
     ++count;
     const Case read = read_case_file(entry.path().string());
     EXPECT_FALSE(read.title.empty());
-    EXPECT_FALSE(read.instruments.pressure_probes.empty());
+    EXPECT_GT(read.instruments.pressure_probes.size() + read.instruments.wave_gauges.size(), 0u) << "a demo measures something";
     EXPECT_EQ(read.directory, entry.path().parent_path().string());
     EXPECT_EQ(write_case(read_case_text(write_case(read), "written")), write_case(read));
   }
