@@ -8,6 +8,14 @@
 
 namespace wavetank {
 
+namespace {
+
+const char* variables(Expression::Of of) {
+  return of == Expression::Of::time ? "t" : of == Expression::Of::place ? "x, y and z" : "t, x, y and z";
+}
+
+}  // namespace
+
 struct Expression::Parser {
   mu::Parser parser;
   double x = 0, y = 0, z = 0, t = 0;
@@ -15,9 +23,8 @@ struct Expression::Parser {
 
 Expression::Expression(const std::string& text, Of of) : parser_(std::make_unique<Parser>()) {
   try {
-    if (of == Of::time) {
-      parser_->parser.DefineVar("t", &parser_->t);
-    } else {
+    if (of != Of::place) parser_->parser.DefineVar("t", &parser_->t);
+    if (of != Of::time) {
       parser_->parser.DefineVar("x", &parser_->x);
       parser_->parser.DefineVar("y", &parser_->y);
       parser_->parser.DefineVar("z", &parser_->z);
@@ -31,7 +38,7 @@ Expression::Expression(const std::string& text, Of of) : parser_(std::make_uniqu
         at >= 0 && at < static_cast<int>(text.size()) ? "at its character " + std::to_string(at + 1) : std::string("at its end");
     std::string what = failure.GetMsg();
     what = what.substr(0, what.find(" found at position"));  // which counts from 0
-    throw Error("\"" + text + "\" is no expression of " + (of == Of::time ? "t" : "x, y and z") + ": " + what + ", " + place);
+    throw Error("\"" + text + "\" is no expression of " + variables(of) + ": " + what + ", " + place);
   }
 }
 
@@ -49,6 +56,16 @@ double Expression::at(const Eigen::Vector3d& place) const {
 double Expression::at(double time) const {
   parser_->t = time;
   return parser_->parser.Eval();
+}
+
+double Expression::at(double time, const Eigen::Vector3d& place) const {
+  parser_->t = time;
+  return at(place);
+}
+
+bool Expression::depends_on_place() const {
+  const auto used = parser_->parser.GetUsedVar();
+  return used.count("x") + used.count("y") + used.count("z") > 0;
 }
 
 }  // namespace wavetank

@@ -51,6 +51,14 @@ Box with_width(Box box, int dimensions) {
   return box;
 }
 
+/// Of the owner's mesh, that openings are to be.
+std::vector<std::string> parts_for_openings(const Case& checked, const std::string& body) {
+  std::vector<std::string> names;
+  for (const OpeningCase& opening : checked.openings)
+    if (opening.body == body && !opening.part.empty()) names.push_back(opening.part);
+  return names;
+}
+
 Part read_tank(const Case& checked, const ResourceResolver& resolve) {
   Part part;
   if (const auto* tank = std::get_if<BoxTank>(&checked.tank.shape)) {
@@ -63,7 +71,7 @@ Part read_tank(const Case& checked, const ResourceResolver& resolve) {
     part.mesh = box_mesh(with_width(box, checked.dimensions), !tank->closed, "tank", top);
     if (checked.dimensions == 2) part.outline = box_outline(box, !tank->closed, top);
   } else {
-    part.mesh = read_mesh(std::get<MeshSource>(checked.tank.shape), checked.directory, resolve);
+    part.mesh = read_mesh(std::get<MeshSource>(checked.tank.shape), checked.directory, resolve, parts_for_openings(checked, ""));
     check_surface(part.mesh);
     if (checked.dimensions == 2) part.outline = cut_mesh(part.mesh);
   }
@@ -80,7 +88,7 @@ Part read_body(const BodyCase& body, const Case& checked, const ResourceResolver
     part.mesh = box_mesh(with_width(*box, checked.dimensions), false, body.name);
     if (checked.dimensions == 2) part.outline = box_outline(*box, false);
   } else {
-    part.mesh = read_mesh(std::get<MeshSource>(body.shape), checked.directory, resolve);
+    part.mesh = read_mesh(std::get<MeshSource>(body.shape), checked.directory, resolve, parts_for_openings(checked, body.name));
     check_closed(part.mesh);
     if (!solid_surface(part.mesh).empty()) part.surfaces = closed_surfaces(part.mesh);
     if (checked.dimensions == 2) part.outline = cut_mesh(part.mesh);
@@ -408,7 +416,9 @@ void check_periods(const Case& checked, const Layout& layout) {
 /// The case's openings, the water beyond them, and the parts with holes.
 std::vector<Part> add_openings(const Case& checked, const std::vector<Part>& parts, const Basin& basin,
                                const std::vector<FilledRegion>& regions, Layout& layout) {
-  layout.openings = place_openings(checked, basin, layout.spacing, regions);
+  std::vector<const TriangleMesh*> meshes;
+  for (const Part& part : parts) meshes.push_back(&part.mesh);
+  layout.openings = place_openings(checked, basin, layout.spacing, regions, meshes);
   check_overlaps(layout.openings, layout.spacing);
   std::vector<Part> opened = opened_parts(checked, parts, layout);
   if (layout.openings.empty()) return opened;

@@ -2,10 +2,12 @@
 #include <assimp/scene.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <unordered_map>
 
 #include "mesh_file_access.h"
@@ -36,11 +38,27 @@ void check_finite(const TriangleMesh& mesh, std::size_t first, const std::string
   }
 }
 
-void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, const std::string& path, TriangleMesh& mesh) {
+using Names = std::vector<std::string>;
+
+/// Adds the mesh's triangles from `first` on to the parts of these names.
+void add_to_parts(const std::set<std::string>& names, std::size_t first, const Names& wanted, TriangleMesh& mesh) {
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
+    auto part = std::find_if(mesh.parts.begin(), mesh.parts.end(), [&](const MeshPart& known) { return known.name == name; });
+    if (part == mesh.parts.end()) part = mesh.parts.insert(part, MeshPart{name, {}});
+    if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+    for (std::size_t t = first; t < mesh.triangles.size(); ++t)
+      part->triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  }
+}
+
+void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, const std::string& path, const Names& wanted_parts,
+              TriangleMesh& mesh) {
   const Eigen::Matrix4d transform = parent * to_eigen(node.mTransformation);
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
     const int first = static_cast<int>(mesh.vertices.size());
+    const std::size_t first_triangle = mesh.triangles.size();
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D& p = part.mVertices[v];
       mesh.vertices.emplace_back((transform * Eigen::Vector4d(p.x, p.y, p.z, 1.0)).head<3>());
@@ -61,8 +79,10 @@ void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& p
                                     first + static_cast<int>(face.mIndices[t[2]]));
       }
     }
+    const aiString material = part.mMaterialIndex < scene.mNumMaterials ? scene.mMaterials[part.mMaterialIndex]->GetName() : aiString();
+    add_to_parts({node.mName.C_Str(), part.mName.C_Str(), material.C_Str()}, first_triangle, wanted_parts, mesh);
   }
-  for (unsigned child = 0; child < node.mNumChildren; ++child) add_node(scene, *node.mChildren[child], transform, path, mesh);
+  for (unsigned child = 0; child < node.mNumChildren; ++child) add_node(scene, *node.mChildren[child], transform, path, wanted_parts, mesh);
 }
 
 /// One vertex for all that lie within the tolerance of it; unused vertices go.
@@ -104,7 +124,7 @@ void merge_vertices(TriangleMesh& mesh, double tolerance) {
 }
 
 /// Through assimp.
-TriangleMesh import_file(const std::string& path) {
+TriangleMesh import_file(const std::string& path, const Names& wanted_parts) {
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshFileAccess);  // the importer owns it
   // Collada: the file's axes stay as they are written, as in rviz; its unit is applied, so that coordinates are metres.
@@ -113,13 +133,13 @@ TriangleMesh import_file(const std::string& path) {
   if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
 
   TriangleMesh mesh;
-  add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), path, mesh);
+  add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), path, wanted_parts, mesh);
   return mesh;
 }
 
-TriangleMesh read_file(const std::string& path) {
+TriangleMesh read_file(const std::string& path, const Names& wanted_parts) {
   check_file("mesh", path);
-  TriangleMesh mesh = is_stl(path) ? read_stl(path) : import_file(path);  // assimp takes few of the dialects of STL
+  TriangleMesh mesh = is_stl(path) ? read_stl(path) : import_file(path, wanted_parts);  // assimp takes few of the dialects of STL
   mesh.name = std::filesystem::path(path).filename().string();
   check_finite(mesh, 0, path);
   if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has no triangles");
@@ -137,8 +157,12 @@ void place(TriangleMesh& mesh, const MeshSource& source, const std::string& what
       (Eigen::AngleAxisd(source.rotation.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(source.rotation.y(), Vector3d::UnitY()) *
        Eigen::AngleAxisd(source.rotation.x(), Vector3d::UnitX()))
           .toRotationMatrix();
+  const auto placed = [&](const Vector3d& vertex) -> Vector3d { return rotation * source.scale.cwiseProduct(vertex) + source.translation; };
+  for (MeshPart& part : mesh.parts)
+    for (auto& triangle : part.triangles)
+      for (Vector3d& corner : triangle) corner = placed(corner);
   for (Vector3d& vertex : mesh.vertices) {
-    vertex = rotation * source.scale.cwiseProduct(vertex) + source.translation;
+    vertex = placed(vertex);
     if (!vertex.allFinite()) throw Error(what + ": its scale, rotation or translation makes vertices that are not finite numbers");
   }
   if (source.scale.prod() < 0) {  // mirrored: what was wound outwards is to stay so
@@ -148,14 +172,15 @@ void place(TriangleMesh& mesh, const MeshSource& source, const std::string& what
 
 }  // namespace
 
-TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve) {
+TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve,
+                       const Names& wanted_parts) {
   if (is_shape(source.uri)) {
     TriangleMesh mesh = shape_mesh(source.uri);
     place(mesh, source, "mesh '" + source.uri + "'");
     return mesh;
   }
   const std::string path = file_path("mesh", source.uri, case_directory, resolve);
-  TriangleMesh mesh = read_file(path);
+  TriangleMesh mesh = read_file(path, wanted_parts);
   place(mesh, source, "mesh file '" + path + "'");
   return mesh;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "opening_parts.h"
 #include "opening_pockets.h"
 #include "polygon.h"
 #include "wavetank/common/error.h"
@@ -19,20 +20,11 @@ constexpr double beside_opening = 1.2;  // spacings: water so near to an opening
 
 // ---------------------------------------------------------------- place and lattice
 
-void set_frame(const OpeningCase& given, const Vector3d& against_gravity, int dimensions, Opening& opening) {
-  opening.centre = given.centre;
-  opening.normal = given.normal.normalized();
-  Vector3d up = given.up.value_or(against_gravity);
-  if (up.cross(opening.normal).norm() < 1e-3 * up.norm()) up = std::abs(opening.normal.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
-  if (dimensions == 2) up = std::abs(up.dot(opening.normal)) < 0.999 * up.norm() ? up : Vector3d::UnitX();
-  opening.up = (up - up.dot(opening.normal) * opening.normal).normalized();
-  opening.across = opening.up.cross(opening.normal);
-}
-
 void set_outline(const OpeningCase& given, int dimensions, double spacing, Opening& opening) {
   const auto corner = [&](double across, double up) -> Vector3d { return opening.centre + across * opening.across + up * opening.up; };
   if (given.diameter) {
     const double pi = std::acos(-1.0), radius = 0.5 * *given.diameter;
+    opening.shape = Opening::Shape::disc;
     opening.width = opening.height = *given.diameter;
     const int sides = std::clamp(4 * static_cast<int>(std::lround(pi * radius / (2 * spacing))), 12, 64);
     const double outer = radius * std::sqrt(2 * pi / (sides * std::sin(2 * pi / sides)));  // the disc's area
@@ -172,13 +164,19 @@ bool held_from_beyond(const OpeningCase& given, double height, int way) {
 }
 
 Opening place_opening(const OpeningCase& given, const Case& checked, const Basin& basin, double spacing,
-                      const std::vector<FilledRegion>& regions) {
+                      const std::vector<FilledRegion>& regions, const std::vector<const TriangleMesh*>& meshes) {
   Opening opening;
   opening.name = given.name;
   for (std::size_t b = 0; b < checked.bodies.size(); ++b)
     if (checked.bodies[b].name == given.body) opening.owner = static_cast<int>(b) + 1;
-  set_frame(given, basin.up, checked.dimensions, opening);
-  set_outline(given, checked.dimensions, spacing, opening);
+  if (given.part.empty()) {
+    opening.centre = given.centre;
+    opening.normal = given.normal.normalized();
+    set_axes(given.up, basin.up, checked.dimensions, opening);
+    set_outline(given, checked.dimensions, spacing, opening);
+  } else {
+    place_by_part(given, *meshes[opening.owner], opening.owner > 0, basin.up, checked.dimensions, spacing, opening);
+  }
   if (opening.height < narrowest * spacing || (checked.dimensions == 3 && opening.width < narrowest * spacing))
     throw Error(called(opening) + " is narrower than two spacings of " + describe(spacing) +
                 " m; make it larger, or fluid/spacing smaller");
@@ -201,7 +199,7 @@ Opening place_opening(const OpeningCase& given, const Case& checked, const Basin
     for (const WaterBefore::Particle& particle : water.particles) level = std::max(level.value_or(particle.level), particle.level);
   }
   const double bottom = height_of(opening.centre) - 0.5 * opening.height;
-  const bool upright = opening.up.dot(basin.up) > 1 - 1e-9 && !given.diameter;
+  const bool upright = opening.up.dot(basin.up) > 1 - 1e-9 && opening.shape == Opening::Shape::rectangle;
   const bool fits = level && upright && *level > bottom + 0.5 * spacing && *level < bottom + opening.height;
   set_cells(1, opening.height, fits ? *level - bottom : opening.height, spacing, opening);
   if (checked.dimensions == 3) set_cells(0, opening.width, opening.width, spacing, opening);
@@ -245,9 +243,10 @@ void check_overlaps(const std::vector<Opening>& openings, double spacing) {
     }
 }
 
-std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions) {
+std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions,
+                                    const std::vector<const TriangleMesh*>& meshes) {
   std::vector<Opening> openings;
-  for (const OpeningCase& given : checked.openings) openings.push_back(place_opening(given, checked, basin, spacing, regions));
+  for (const OpeningCase& given : checked.openings) openings.push_back(place_opening(given, checked, basin, spacing, regions, meshes));
   return openings;
 }
 

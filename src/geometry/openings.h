@@ -9,7 +9,9 @@ namespace wavetank {
 
 /// The case's openings with their lattices, and which columns stand in water at the start. Throws Error for one that is narrower than two
 /// spacings, or under a level where gravity is along no axis.
-std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions);
+/// `meshes`: of the owners of walls.
+std::vector<Opening> place_openings(const Case& checked, const Basin& basin, double spacing, const std::vector<FilledRegion>& regions,
+                                    const std::vector<const TriangleMesh*>& meshes);
 
 /// Throws Error for two openings that overlap, or whose pockets do.
 void check_overlaps(const std::vector<Opening>& openings, double spacing);

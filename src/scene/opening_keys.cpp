@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "motion_values.h"
 #include "wavetank/common/expression.h"
@@ -60,6 +61,18 @@ Section<FlowCommandCase> command_section() {
   return section;
 }
 
+/// Of a part of the velocity's profile: a word, or an expression of a place.
+Codec<std::string> profile() {
+  Codec<std::string> codec = expression(Expression::Of::place);
+  codec.type = "uniform, parabolic or expression";
+  const auto read_expression = codec.read;
+  codec.read = [read_expression](const Setting& setting, const Item& item, Context& context) {
+    if (setting.kind == Setting::Kind::scalar && (setting.text == "uniform" || setting.text == "parabolic")) return setting.text;
+    return read_expression(setting, item, context);
+  };
+  return codec;
+}
+
 std::string word_of(OpeningKind kind) { return kind == OpeningKind::inlet ? "inlet" : kind == OpeningKind::outlet ? "outlet" : "pressure"; }
 
 std::string word_of(FlowQuantity quantity) {
@@ -91,8 +104,10 @@ void check_law(const OpeningCase& opening, const Setting& map, const std::string
     if (!first.empty()) refuse_key(map, path, law.key, "is given as well as " + first + "; give one of " + allowed);
     first = law.key;
   }
-  if (first.empty() && opening.kind != OpeningKind::outlet)
+  if (first.empty() && opening.kind == OpeningKind::pressure)
     throw Error(map.place.describe() + ": " + path + " is an opening of kind " + kind + " without a law; give one of " + allowed);
+  if (!opening.returns_to.empty() && opening.kind != OpeningKind::outlet)
+    refuse_key(map, path, "returns_to", "is for outlets, and this one's kind is " + kind + "; leave it out");
   if (opening.level && opening.kind == OpeningKind::pressure)
     refuse_key(map, path, "level", "is not for an opening of kind pressure; give head");
   if (opening.record) {
@@ -120,7 +135,14 @@ void check_start(const std::string& text, const std::string& key, const std::str
 }
 
 void check_shape(const OpeningCase& opening, const Setting& map, const std::string& path, const Context& context) {
-  if (opening.normal.isZero(0.0)) refuse_vector(map, path, "normal", opening.normal, "a direction into the water, not all 0");
+  if (opening.part.empty()) {
+    for (const char* key : {"centre", "normal"})
+      if (map.find(key) == nullptr) refuse_key(map, path, key, "is missing; it must be given ([x, y, z]), or part instead of it");
+  } else if (map.find("centre") != nullptr) {
+    refuse_key(map, path, "centre", "is given as well as part, which is where it is; give one of them");
+  }
+  if (opening.normal.isZero(0.0) && map.find("normal") != nullptr)
+    refuse_vector(map, path, "normal", opening.normal, "a direction into the water, not all 0");
   if (context.dimensions == 2 && opening.normal.y() != 0)
     refuse_vector(map, path, "normal", opening.normal, "within the x–z plane of a 2-D case, [x, z]");
   if (context.dimensions == 2 && opening.diameter)
@@ -128,10 +150,10 @@ void check_shape(const OpeningCase& opening, const Setting& map, const std::stri
   if (opening.diameter && opening.up) refuse_key(map, path, "up", "is for rectangles; leave it out of a disc");
   if (opening.up && opening.up->cross(opening.normal).norm() <= 1e-6 * opening.up->norm() * opening.normal.norm())
     refuse_key(map, path, "up", "is along " + join_path(path, "normal") + "; it must be a direction within the opening");
-  if (opening.profile != FlowProfile::uniform && (opening.kind == OpeningKind::pressure || opening.level))
-    refuse_key(map, path, "profile",
-               "is parabolic, which is for inlets and outlets that are full, of a given velocity or discharge; "
-               "leave it out");
+  if (opening.profile != "uniform" && opening.kind == OpeningKind::pressure)
+    refuse_key(map, path, "profile", "is for inlets and outlets of a given velocity or discharge; leave it out");
+  if (opening.profile == "parabolic" && opening.level)
+    refuse_key(map, path, "profile", "is parabolic, which is for inlets and outlets that are full; leave it out, or give an expression");
 }
 
 }  // namespace
@@ -146,17 +168,27 @@ Section<OpeningCase> opening_section() {
            "`inlet`: water comes in by `velocity`, `discharge`, `record` or `command`. `outlet`: it leaves, freely unless there is a "
            "`level`, `discharge`, `record` or `command`. `pressure`: it stands under `head` or `record` beyond, and flows either way.")
       .required = true;
-  section.key("body", &OpeningCase::body, text(), "", "The body in whose wall the opening is; it must be fixed. Empty: the tank.");
-  section.key("centre", &OpeningCase::centre, position(), "m", "On the wall.").required = true;
-  section.key("normal", &OpeningCase::normal, vector(), "", "Direction at right angles to the wall, into the water; of any length.")
-      .required = true;
+  section.key("body", &OpeningCase::body, text(), "",
+              "The body in whose wall the opening is, which must not be free; of one that moves the opening has no level or head. Empty: "
+              "the tank.");
+  section.key_where([](const OpeningCase& opening) { return opening.part.empty(); }, "centre", &OpeningCase::centre, position(), "m",
+                    "On the wall; it must be given unless `part` is.");
+  section.key_where([](const OpeningCase& opening) { return !opening.normal.isZero(0.0); }, "normal", &OpeningCase::normal, vector(), "",
+                    "Direction at right angles to the wall, into the water; of any length. It must be given unless `part` is.");
   section.key("size", &OpeningCase::size, if_given(rectangle_size()), "m", "Of a rectangle.").required = true;
   section.key("diameter", &OpeningCase::diameter, number_if_given(greater_than(0)), "m", "Of a disc, in 3-D.").required = true;
-  section.exactly_one_of({{"size"}, {"diameter"}});
+  section
+      .key_where([](const OpeningCase& opening) { return !opening.part.empty(); }, "part", &OpeningCase::part, nonempty_text(), "",
+                 "Name of a node, a mesh or a material in the mesh file of the wall: the opening is that part, which must be flat, convex "
+                 "and without holes.")
+      .required = true;
+  section.exactly_one_of({{"size"}, {"diameter"}, {"part"}});
   section.key("up", &OpeningCase::up, if_given(vector()), "",
               "Direction of the height of `size`; if it is left out, against gravity, or along x where that is the normal's.");
-  section.key("velocity", &OpeningCase::velocity, expression(Expression::Of::time), "m/s",
-              "Of an inlet: the mean over the water that comes in, a number or an expression of t (s).");
+  section.key(
+      "velocity", &OpeningCase::velocity, expression(Expression::Of::time_and_place), "m/s",
+      "Of an inlet: the mean over the water that comes in, a number or an expression of t (s); or, with x, y or z (m) in it, that at "
+      "each place.");
   section.key("discharge", &OpeningCase::discharge, expression(Expression::Of::time), "m³/s",
               "Into the tank of an inlet, out of it of an outlet, a number or an expression of t (s); in 2-D a metre of width (m²/s).");
   section.key("head", &OpeningCase::head, expression(Expression::Of::time), "m",
@@ -164,27 +196,69 @@ Section<OpeningCase> opening_section() {
   section.key("record", &OpeningCase::record, section_if_given(record_section()), "", "Discharge, velocity or head from a file.");
   section.key("command", &OpeningCase::command, section_if_given(command_section()), "",
               "The discharge is commanded while it runs, and nothing flows before; limits on it, or {}.");
-  section.key("profile", &OpeningCase::profile,
-              choice<FlowProfile>({{"uniform", FlowProfile::uniform}, {"parabolic", FlowProfile::parabolic}}), "",
-              "Of the velocity, where velocity or discharge is given: even, or as in a pipe, zero at the opening's edges.");
+  section.key(
+      "profile", &OpeningCase::profile, profile(), "",
+      "Of the velocity, where velocity or discharge is given: even, as in a pipe, zero at the opening's edges, or by an expression of "
+      "the place (x, y, z, m), of which only the shape counts.");
+  section.key("returns_to", &OpeningCase::returns_to, text(), "",
+              "Of an outlet: the name of an inlet without a law of its own, by which what leaves here comes in again.");
   section.key("level", &OpeningCase::level, number_if_given({}), "m",
               "Height (z) of a free surface: of an inlet, that of the water that comes in, which is less than full; beyond an outlet, "
               "against which water leaves or comes back.");
   section.rule([](const OpeningCase& opening, const Setting& map, const std::string& path, const Context& context) {
     check_shape(opening, map, path, context);
     check_law(opening, map, path);
-    check_start(opening.velocity, "velocity", "m/s", map, path, false);
+    if (!Expression(opening.velocity.empty() ? "0" : opening.velocity, Expression::Of::time_and_place).depends_on_place())
+      check_start(opening.velocity, "velocity", "m/s", map, path, false);
     check_start(opening.discharge, "discharge", context.dimensions == 2 ? "m²/s" : "m³/s", map, path, false);
     check_start(opening.head, "head", "m", map, path, true);
   });
   return section;
 }
 
+namespace {
+
+bool has_law(const OpeningCase& opening) {
+  return !opening.velocity.empty() || !opening.discharge.empty() || !opening.head.empty() || opening.record || opening.command;
+}
+
+using Clash = std::function<void(const std::string& key, const std::string& text)>;
+
+/// What leaves at one opening comes in at another.
+void check_return(const Case& read, const OpeningCase& opening, const Clash& clash) {
+  const auto feeds = [&](const OpeningCase& other) { return other.returns_to == opening.name; };
+  const bool fed = std::any_of(read.openings.begin(), read.openings.end(), feeds);
+  if (opening.kind == OpeningKind::inlet && !has_law(opening) && !fed)
+    clash("kind", "inlet without a law; give one of velocity, discharge, record, command, or an outlet that returns_to it");
+  if (opening.returns_to.empty()) return;
+  const auto found =
+      std::find_if(read.openings.begin(), read.openings.end(), [&](const OpeningCase& other) { return other.name == opening.returns_to; });
+  if (found == read.openings.end()) clash("returns_to", opening.returns_to + ", which is no opening of the case");
+  if (found->kind != OpeningKind::inlet) clash("returns_to", opening.returns_to + ", which is no inlet");
+  if (has_law(*found)) clash("returns_to", opening.returns_to + ", which has a law of its own; leave that out");
+}
+
+void check_wall(const Case& read, const OpeningCase& opening, const Clash& clash) {
+  const bool of_tank = opening.body.empty();
+  const auto found = std::find_if(read.bodies.begin(), read.bodies.end(), [&](const BodyCase& body) { return body.name == opening.body; });
+  if (!of_tank && found == read.bodies.end()) clash("body", opening.body + ", which is no body of the case; leave it out for the tank");
+  if (!of_tank && found->motion == Motion::free)
+    clash("body", opening.body + ", which moves freely; openings are for bodies that are fixed, prescribed or commanded");
+  if (!of_tank && found->motion != Motion::fixed && (opening.level || opening.kind == OpeningKind::pressure))
+    clash("body", opening.body + ", which moves, but the opening has a level or a head; those are for walls that stand");
+  const bool is_mesh = of_tank ? std::holds_alternative<MeshSource>(read.tank.shape) : std::holds_alternative<MeshSource>(found->shape);
+  if (!opening.part.empty() && !is_mesh)
+    clash("part", opening.part + ", but " + (of_tank ? "the tank" : "body " + opening.body) +
+                      " is no mesh and has no parts; give centre, normal and size");
+}
+
+}  // namespace
+
 void check_openings(const Case& read, const Setting& root) {
   for (std::size_t i = 0; i < read.openings.size(); ++i) {
     const OpeningCase& opening = read.openings[i];
     const std::string path = join_path("openings", i);
-    const auto clash = [&](const std::string& key, const std::string& text) {
+    const Clash clash = [&](const std::string& key, const std::string& text) {
       throw Error(nearest_setting(root, join_path(path, key)).place.describe() + ": " + join_path(path, key) + " is " + text);
     };
     if (read.numerics.walls.method == WallMethod::ghost)
@@ -192,11 +266,8 @@ void check_openings(const Case& read, const Setting& root) {
             word_of(opening.kind) + ", and numerics/walls/method is ghost, whose mirrors know no openings; choose boundary_integral");
     if (read.tank.motion != Motion::fixed)
       clash("kind", word_of(opening.kind) + ", and tank/motion is not fixed; openings are for tanks that stand");
-    if (opening.body.empty()) continue;
-    const auto found =
-        std::find_if(read.bodies.begin(), read.bodies.end(), [&](const BodyCase& body) { return body.name == opening.body; });
-    if (found == read.bodies.end()) clash("body", opening.body + ", which is no body of the case; leave it out for the tank");
-    if (found->motion != Motion::fixed) clash("body", opening.body + ", which moves; openings are for bodies that are fixed");
+    check_return(read, opening, clash);
+    check_wall(read, opening, clash);
   }
 }
 

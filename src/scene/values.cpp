@@ -250,7 +250,7 @@ Codec<std::string> expression(Expression::Of of) {
   Codec<std::string> codec = text();
   codec.type = "expression";
   codec.read = [of](const Setting& setting, const Item& item, Context&) {
-    const std::string variables = of == Expression::Of::time ? "t" : "x, y and z";
+    const std::string variables = of == Expression::Of::time ? "t" : of == Expression::Of::place ? "x, y and z" : "t, x, y and z";
     if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "an expression of " + variables);
     try {
       Expression(setting.text, of);

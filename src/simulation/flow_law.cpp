@@ -69,47 +69,78 @@ FlowLaw::FlowLaw(const OpeningCase& opening, const std::string& case_directory, 
     value_ = [expression](double time) { return expression->at(time); };
   };
   take(opening.discharge, FlowQuantity::discharge);
-  take(opening.velocity, FlowQuantity::velocity);
+  if (!opening.velocity.empty() && Expression(opening.velocity, Expression::Of::time_and_place).depends_on_place()) {
+    quantity_ = FlowQuantity::velocity;
+    by_place_ = std::make_shared<Expression>(opening.velocity, Expression::Of::time_and_place);
+  } else {
+    take(opening.velocity, FlowQuantity::velocity);
+  }
   take(opening.head, FlowQuantity::head);
 }
 
-double FlowLaw::at(double time) const {
-  const double value = value_(time);
+double FlowLaw::checked(double value, double time) const {
   if (!std::isfinite(value) || (value < 0 && quantity_ != FlowQuantity::head))
     throw Error("opening '" + name_ + "': its " + word_of(*quantity_) + " at t = " + number(time) + " s is " + number(value) +
                 "; it must be finite" + (quantity_ == FlowQuantity::head ? "" : " and at least 0"));
   return value;
 }
 
-std::vector<double> profile_of(const Opening& opening, FlowProfile profile, const std::vector<bool>& wet) {
+double FlowLaw::at(double time) const { return checked(value_(time), time); }
+
+double FlowLaw::at(double time, const Vector3d& place) const { return checked(by_place_->at(time, place), time); }
+
+std::vector<double> shape_of_profile(const OpeningCase& given, const Opening& opening) {
   std::vector<double> shape(opening.columns.size(), 1.0);
-  double area = 0, flow = 0;
-  for (std::size_t c = 0; c < shape.size(); ++c) {
-    if (!wet[c]) {
-      shape[c] = 0;
-      continue;
-    }
-    const Opening::Column& column = opening.columns[c];
-    if (profile == FlowProfile::parabolic) {
-      const Vector3d way = column.place - opening.centre;
+  if (given.profile == "uniform") return shape;
+  if (given.profile == "parabolic") {
+    if (opening.shape == Opening::Shape::polygon)
+      throw Error("opening '" + opening.name + "' has the profile parabolic, which is for rectangles and discs; give an expression");
+    for (std::size_t c = 0; c < shape.size(); ++c) {
+      const Vector3d way = opening.columns[c].place - opening.centre;
       const double up = 2 * way.dot(opening.up) / opening.height;
       const double across = opening.width > 0 ? 2 * way.dot(opening.across) / opening.width : 0.0;
-      const bool disc = opening.outline.size() > 4;
+      const bool disc = opening.shape == Opening::Shape::disc;
       shape[c] = std::max(disc ? 1 - up * up - across * across : (1 - up * up) * (1 - across * across), 0.0);
     }
-    area += column.area;
-    flow += shape[c] * column.area;
+    return shape;
+  }
+  const Expression expression(given.profile);
+  for (std::size_t c = 0; c < shape.size(); ++c) {
+    const Vector3d& place = opening.columns[c].place;
+    shape[c] = expression.at(place);
+    if (!std::isfinite(shape[c]) || shape[c] < 0)
+      throw Error("opening '" + opening.name + "': its profile at (" + number(place.x()) + ", " + number(place.y()) + ", " +
+                  number(place.z()) + ") m is " + number(shape[c]) + "; it must be finite and at least 0");
+  }
+  if (*std::max_element(shape.begin(), shape.end()) <= 0) throw Error("opening '" + opening.name + "': its profile is 0 everywhere");
+  return shape;
+}
+
+std::vector<double> profile_of(const Opening& opening, std::vector<double> shape, const std::vector<bool>& wet) {
+  double area = 0, flow = 0;
+  for (std::size_t c = 0; c < shape.size(); ++c) {
+    if (!wet[c]) shape[c] = 0;
+    if (!wet[c]) continue;
+    area += opening.columns[c].area;
+    flow += shape[c] * opening.columns[c].area;
   }
   if (flow > 0)
     for (double& value : shape) value *= area / flow;
   return shape;
 }
 
-double FlowLaw::greatest(double duration) const {
+double FlowLaw::greatest(double duration, const Opening& opening) const {
   if (greatest_recorded_) return *greatest_recorded_;
   constexpr int looks = 1000;
-  double greatest = at(0);
-  for (int k = 1; k <= looks; ++k) greatest = std::max(greatest, at(duration * k / looks));
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= looks; ++k) {
+    const double time = duration * k / looks;
+    if (by_place_ == nullptr) {
+      greatest = std::max(greatest, at(time));
+    } else {
+      for (const Opening::Column& column : opening.columns) greatest = std::max(greatest, at(time, column.place));
+    }
+  }
   return greatest;
 }
 
@@ -118,7 +149,7 @@ double fastest_by_head(const OpeningCase& given, const Opening& opening, const F
   const Top top = top_of(scene);
   double lowest = std::numeric_limits<double>::infinity();
   for (const Opening::Column& column : opening.columns) lowest = std::min(lowest, top.way * column.place[top.axis]);
-  const double head = top.way > 0 ? law.greatest(scene.duration) : -law.at(0);
+  const double head = top.way > 0 ? law.greatest(scene.duration, opening) : -law.at(0);
   return std::sqrt(2 * std::abs(scene.gravity[top.axis]) * std::max(head - lowest, 0.0));
 }
 
@@ -130,11 +161,11 @@ double fastest_flow(const OpeningCase& given, const Opening& opening, const Flow
     if (wet.back()) area += column.area;
   }
   if (!(area > 0)) return 0;
-  const std::vector<double> profile = profile_of(opening, given.profile, wet);
+  const std::vector<double> profile = profile_of(opening, shape_of_profile(given, opening), wet);
   const double peak = *std::max_element(profile.begin(), profile.end());
   if (given.command) return peak * given.command->greatest_discharge.value_or(0) / area;
   if (!law.quantity() || law.quantity() == FlowQuantity::head) return 0;
-  const double greatest = law.greatest(duration);
+  const double greatest = law.greatest(duration, opening);
   return peak * (law.quantity() == FlowQuantity::discharge ? greatest / area : greatest);
 }
 

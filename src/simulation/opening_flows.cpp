@@ -14,6 +14,17 @@ constexpr double least_filling = 0.45;    // of what walls leave of the kernel: 
 constexpr double drain_behind = 0.25;     // spacings behind the last row, where particles leave: none that comes in is so far back
 constexpr double past_the_back = 0.05;    // spacings behind the pocket's back, to where drains reach
 constexpr double fastest_of_sound = 0.1;  // of the speed of sound
+constexpr double slow_return = 20;        // fillings of an inlet's pocket, in which it makes good what it is behind
+
+/// Where a wall's motion has carried it.
+Opening moved(Opening opening, const WallMotion& wall, const Vector3d& reference) {
+  const auto place = [&](Vector3d& point) { point = reference + wall.displacement + wall.orientation * (point - reference); };
+  for (Vector3d* direction : {&opening.normal, &opening.across, &opening.up}) *direction = wall.orientation * *direction;
+  place(opening.centre);
+  for (Vector3d& corner : opening.outline) place(corner);
+  for (Opening::Column& column : opening.columns) place(column.place);
+  return opening;
+}
 
 }  // namespace
 
@@ -64,10 +75,12 @@ void WaterBefore::restore(std::vector<double>::const_iterator& from, std::size_t
   }
 }
 
-OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws)
+OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws,
+                           std::vector<Vector3d> references)
     : cases_(scene.openings),
       openings_(layout.openings),
       laws_(std::move(laws)),
+      references_(std::move(references)),
       spacing_(layout.spacing),
       support_(discretisation.support),
       density_(scene.fluid.density),
@@ -88,14 +101,48 @@ OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discre
     places_.push_back(std::move(place));
   }
   states_.resize(openings_.size());
+  returned_by_.resize(openings_.size());
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    shapes_.push_back(shape_of_profile(cases_[o], openings_[o]));
+    any_moves_ = any_moves_ || layout.moving[openings_[o].owner];
+    for (std::size_t other = 0; other < openings_.size(); ++other)
+      if (cases_[other].returns_to == cases_[o].name) returned_by_[o].push_back(other);
+  }
+  for (const bool last : {false, true})
+    for (std::size_t o = 0; o < openings_.size(); ++o)
+      if (returned_by_[o].empty() != last) in_order_.push_back(o);
+  for (const Opening& opening : openings_) poses_.push_back({opening, opening, {}, references_[opening.owner]});
 }
 
-std::vector<ImposedZone> OpeningFlows::zones() const {
+void OpeningFlows::find_poses(const WallMotions& begin, const WallMotions& end) {
+  for (std::size_t o = 0; o < openings_.size(); ++o) {
+    const auto owner = static_cast<std::size_t>(openings_[o].owner);
+    const Vector3d& reference = references_[owner];
+    poses_[o].wall = begin.owners[owner];
+    poses_[o].reference = reference + begin.owners[owner].displacement;
+    poses_[o].begin = moved(openings_[o], begin.owners[owner], reference);
+    poses_[o].end = moved(openings_[o], end.owners[owner], reference);
+  }
+}
+
+/// The water is carried along the chord of a step, so that it is where the lattice is at its end.
+std::vector<ImposedZone> OpeningFlows::zones(double time_step) const {
   std::vector<ImposedZone> zones;
-  for (const Opening& opening : openings_) {
+  for (const Pose& pose : poses_) {
+    const Opening& opening = pose.begin;
     ImposedZone zone;
+    if (any_moves_ && time_step > 0) {
+      const auto axes = [](const Opening& of) {
+        Eigen::Matrix3d columns;
+        columns << of.normal, of.across, of.up;
+        return columns;
+      };
+      zone.drift = (pose.end.centre - opening.centre) / time_step;
+      zone.turning = (axes(pose.end) * axes(opening).transpose() - Eigen::Matrix3d::Identity()) / time_step;
+    }
     zone.centre = opening.centre;
     zone.normal = opening.normal;
+    zone.heading = pose.end.normal;
     zone.across = opening.across;
     zone.up = opening.up;
     zone.depth = opening.pocket;
@@ -110,11 +157,17 @@ std::vector<ImposedZone> OpeningFlows::zones() const {
 
 void OpeningFlows::hold(Solver& solver) const {
   if (!any()) return;
+  solver.set_drains(drains());
+  solver.set_zones(zones(0));
+}
+
+std::vector<Drain> OpeningFlows::drains() const {
   std::vector<Drain> drains;
-  for (const Opening& opening : openings_) {
+  for (const Pose& pose : poses_) {
+    const Opening& opening = pose.end;
     const double begin = opening.depth + drain_behind * spacing_, end = opening.pocket + past_the_back * spacing_;
     const Vector3d back = 0.5 * (begin + end) * opening.normal;
-    // a rectangle has one drain, a disc one a column, which its corners are none of
+    // a rectangle has one drain, other shapes one a column, which the corners of the disc or the polygon are none of
     const auto add = [&](const Vector3d& place, double across, double up) {
       Drain drain;
       drain.centre = place - back;
@@ -124,14 +177,13 @@ void OpeningFlows::hold(Solver& solver) const {
       drains.push_back(drain);
     };
     const double skin = 0.1 * spacing_, across = dimensions_ == 2 ? spacing_ : 0.5 * opening.width + skin;
-    if (opening.outline.size() <= 4) {
+    if (opening.shape == Opening::Shape::rectangle) {
       add(opening.centre, across, 0.5 * opening.height + skin);
     } else {
       for (const Opening::Column& column : opening.columns) add(column.place, 0.8 * opening.cell_size[0], 0.8 * opening.cell_size[1]);
     }
   }
-  solver.set_drains(drains);
-  solver.set_zones(zones());
+  return drains;
 }
 
 double OpeningFlows::hydrostatic(double level, const Vector3d& place) const {
@@ -151,8 +203,13 @@ double OpeningFlows::commanded_discharge(std::size_t o, double time, double time
 }
 
 /// `sign`: 1 into the water, −1 out of it.
-void OpeningFlows::set_given_speeds(std::size_t o, double value, bool is_velocity, double sign, Columns& columns) const {
-  const std::vector<double> profile = profile_of(openings_[o], cases_[o].profile, columns.wet);
+void OpeningFlows::set_given_speeds(std::size_t o, double time, double value, bool is_velocity, double sign, Columns& columns) const {
+  const std::vector<double> profile = profile_of(openings_[o], shapes_[o], columns.wet);
+  if (laws_[o].depends_on_place()) {
+    for (std::size_t c = 0; c < profile.size(); ++c)
+      columns.speed[c] = sign * profile[c] * laws_[o].at(time, openings_[o].columns[c].place);
+    return;
+  }
   double area = 0;
   for (std::size_t c = 0; c < profile.size(); ++c)
     if (columns.wet[c]) area += openings_[o].columns[c].area;
@@ -177,33 +234,58 @@ void OpeningFlows::hold_back(std::size_t o, double time_step, Columns& columns) 
 }
 
 OpeningFlows::Columns OpeningFlows::columns_of(std::size_t o, const std::vector<PointValue>& before) const {
-  const Opening& opening = openings_[o];
+  const Opening& opening = poses_[o].begin;
   const std::size_t count = opening.columns.size();
   Columns columns{std::vector<double>(count), std::vector<double>(count), std::vector<bool>(count), std::vector<bool>(count)};
   for (std::size_t c = 0; c < count; ++c) {
     columns.pressure[c] = before[c].pressure;
     columns.wet_before[c] = before[c].filling > least_filling * before[c].shepard;
     columns.wet[c] = cases_[o].kind == OpeningKind::inlet ? opening.columns[c].wet : columns.wet_before[c];
-    if (columns.wet_before[c]) columns.speed[c] = before[c].velocity.dot(opening.normal);
+    const Vector3d& place = opening.columns[c].place;
+    if (columns.wet_before[c]) columns.speed[c] = (before[c].velocity - poses_[o].velocity_at(place)).dot(opening.normal);
   }
   return columns;
 }
 
 double OpeningFlows::law_at(std::size_t o, double time, double time_step) {
   if (cases_[o].command) return commanded_discharge(o, time, time_step);
-  return laws_[o].quantity() ? laws_[o].at(time) : 0.0;
+  if (!returned_by_[o].empty()) return returned_discharge(o);
+  return laws_[o].quantity() && !laws_[o].depends_on_place() ? laws_[o].at(time) : 0.0;
 }
 
-void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) const {
+double OpeningFlows::smooth_volume(std::size_t o) const {
+  double volume = (states_[o].mass_in - states_[o].mass_out) / density_;
+  for (std::size_t c = 0; c < places_[o].phase.size(); ++c) volume += places_[o].phase[c] * openings_[o].columns[c].area;
+  return volume;
+}
+
+/// What leaves at present, and slowly what has left before and is not back yet.
+double OpeningFlows::returned_discharge(std::size_t o) const {
+  double discharge = 0, behind = -smooth_volume(o), area = 0;
+  for (const std::size_t by : returned_by_[o]) {
+    discharge -= states_[by].discharge;
+    behind -= smooth_volume(by);
+  }
+  std::vector<bool> wet;
+  for (const Opening::Column& column : openings_[o].columns) {
+    wet.push_back(column.wet);
+    if (column.wet) area += column.area;
+  }
+  const std::vector<double> profile = profile_of(openings_[o], shapes_[o], wet);
+  const double most = fastest_of_sound * sound_speed_ * area / *std::max_element(profile.begin(), profile.end());
+  return std::clamp(discharge * (1 + behind / (slow_return * area * openings_[o].pocket)), 0.0, most);
+}
+
+void OpeningFlows::apply_law(std::size_t o, double time, double value, Columns& columns) const {
   const OpeningCase& given = cases_[o];
   const Opening& opening = openings_[o];
   const std::size_t count = opening.columns.size();
   if (given.kind == OpeningKind::inlet) {
-    set_given_speeds(o, value, laws_[o].quantity() == FlowQuantity::velocity, 1, columns);
+    set_given_speeds(o, time, value, laws_[o].quantity() == FlowQuantity::velocity, 1, columns);
     return;
   }
   if (given.kind == OpeningKind::outlet && (given.command || laws_[o].quantity())) {
-    set_given_speeds(o, value, false, -1, columns);
+    set_given_speeds(o, time, value, false, -1, columns);
   } else if (given.level || given.kind == OpeningKind::pressure) {
     const double level = way_ * given.level.value_or(value);
     for (std::size_t c = 0; c < count; ++c) {
@@ -218,7 +300,8 @@ void OpeningFlows::apply_law(std::size_t o, double value, Columns& columns) cons
 }
 
 void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming) {
-  const Opening& opening = openings_[o];
+  const Opening& opening = poses_[o].end;
+  const Pose& pose = poses_[o];
   const double last_row = (opening.rows - 0.5) * spacing_;
   for (std::size_t c = 0; c < opening.columns.size(); ++c) {
     double& phase = places_[o].phase[c];
@@ -228,59 +311,74 @@ void OpeningFlows::let_in(std::size_t o, const Columns& columns, double time_ste
     if (phase < 0.5 * spacing_) continue;
     phase -= spacing_;
     coming.position.push_back(opening.columns[c].place + (phase - last_row) * opening.normal);
-    coming.velocity.push_back(columns.speed[c] * opening.normal);
+    coming.velocity.push_back(columns.speed[c] * opening.normal + pose.velocity_at(coming.position.back()));
     coming.volume.push_back(opening.columns[c].area * spacing_);
     coming.pressure.push_back(columns.pressure[c]);
   }
 }
 
-void OpeningFlows::before_step(Solver& solver, double time, double time_step) {
+std::vector<Vector3d> OpeningFlows::points_before() const {
+  std::vector<Vector3d> points;
+  for (const Pose& pose : poses_)
+    for (const Opening::Column& column : pose.begin.columns) points.push_back(column.place + 0.5 * support_ * pose.begin.normal);
+  return points;
+}
+
+void OpeningFlows::set_state(std::size_t o, double time, double time_step, const std::vector<PointValue>& values, ImposedZone& zone,
+                             NewParticles& coming) {
+  const Opening& opening = poses_[o].begin;
+  Columns columns = columns_of(o, values);
+  const double value = law_at(o, time, time_step), to_plane = 0.5 * support_;
+  WaterBefore& before = places_[o].before;
+  before.add(time, {columns.speed, columns.pressure}, (to_plane + opening.pocket) / sound_speed_);
+  Columns last_row;
+  for (int layer = 0; layer < zone.layers; ++layer) {
+    const double way = to_plane + (layer + 0.5) * opening.pocket / zone.layers;
+    WaterBefore::Values late = before.at(time + 0.5 * time_step - way / sound_speed_);
+    columns.speed = std::move(late.speed);
+    columns.pressure = std::move(late.pressure);
+    apply_law(o, time, value, columns);
+    hold_back(o, time_step, columns);
+    if (single_)  // as the device has it
+      for (double& speed : columns.speed) speed = static_cast<float>(speed);
+    for (const int column : opening.column_of) {
+      zone.speed.push_back(column < 0 ? 0.0 : columns.speed[column]);
+      zone.pressure.push_back(column < 0 ? 0.0 : columns.pressure[column]);
+      // where there is air, drops fall as they would, to where they leave
+      if (layer == 0) zone.is_free.push_back(column >= 0 && columns.wet[column] ? 0 : 1);
+    }
+    if (layer == opening.rows - 1) last_row = columns;
+    if (layer > 0) continue;
+    states_[o].discharge = 0;
+    for (std::size_t c = 0; c < opening.columns.size(); ++c)
+      if (columns.wet[c]) states_[o].discharge += columns.speed[c] * opening.columns[c].area;
+  }
+  const std::size_t already = coming.position.size();
+  let_in(o, last_row, time_step, coming);
+  states_[o].particles_in += coming.position.size() - already;
+  for (std::size_t k = already; k < coming.position.size(); ++k) coming_to_.push_back(o);
+}
+
+void OpeningFlows::before_step(Solver& solver, double time, double time_step, const WallMotions& begin, const WallMotions& end) {
   if (!any()) return;
+  if (any_moves_) {
+    find_poses(begin, end);
+    solver.set_drains(drains());
+  }
   if (!points_) {
-    std::vector<Vector3d> before;
-    for (const Opening& opening : openings_)
-      for (const Opening::Column& column : opening.columns) before.push_back(column.place + 0.5 * support_ * opening.normal);
-    points_ = solver.make_points(before);
+    points_ = solver.make_points(points_before());
+  } else if (any_moves_) {
+    points_->set(points_before());
   }
   const std::vector<PointValue> values = solver.evaluate(*points_);
-  std::vector<ImposedZone> zones = this->zones();
+  std::vector<std::size_t> first{0};
+  for (const Opening& opening : openings_) first.push_back(first.back() + opening.columns.size());
+  std::vector<ImposedZone> zones = this->zones(time_step);
   NewParticles coming;
-  std::size_t first = 0;
-  for (std::size_t o = 0; o < openings_.size(); ++o) {
-    const Opening& opening = openings_[o];
-    const std::size_t count = opening.columns.size();
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    Columns columns = columns_of(o, {begin, begin + static_cast<std::ptrdiff_t>(count)});
-    first += count;
-    const double value = law_at(o, time, time_step), to_plane = 0.5 * support_;
-    WaterBefore& before = places_[o].before;
-    Columns last_row;
-    before.add(time, {columns.speed, columns.pressure}, (to_plane + opening.pocket) / sound_speed_);
-    for (int layer = 0; layer < zones[o].layers; ++layer) {
-      const double way = to_plane + (layer + 0.5) * opening.pocket / zones[o].layers;
-      WaterBefore::Values late = before.at(time + 0.5 * time_step - way / sound_speed_);
-      columns.speed = std::move(late.speed);
-      columns.pressure = std::move(late.pressure);
-      apply_law(o, value, columns);
-      hold_back(o, time_step, columns);
-      if (single_)  // as the device has it
-        for (double& speed : columns.speed) speed = static_cast<float>(speed);
-      for (const int column : opening.column_of) {
-        zones[o].speed.push_back(column < 0 ? 0.0 : columns.speed[column]);
-        zones[o].pressure.push_back(column < 0 ? 0.0 : columns.pressure[column]);
-        // where there is air, drops fall as they would, to where they leave
-        if (layer == 0) zones[o].is_free.push_back(column >= 0 && columns.wet[column] ? 0 : 1);
-      }
-      if (layer == opening.rows - 1) last_row = columns;
-      if (layer > 0) continue;
-      states_[o].discharge = 0;
-      for (std::size_t c = 0; c < count; ++c)
-        if (columns.wet[c]) states_[o].discharge += columns.speed[c] * opening.columns[c].area;
-    }
-    const std::size_t already = coming.position.size();
-    let_in(o, last_row, time_step, coming);
-    states_[o].particles_in += coming.position.size() - already;
-    for (std::size_t k = already; k < coming.position.size(); ++k) coming_to_.push_back(o);
+  for (const std::size_t o : in_order_) {
+    const auto from = values.begin();
+    set_state(o, time, time_step, {from + static_cast<std::ptrdiff_t>(first[o]), from + static_cast<std::ptrdiff_t>(first[o + 1])},
+              zones[o], coming);
   }
   solver.set_zones(zones);
   if (!coming.position.empty()) solver.let_in(coming);
@@ -294,7 +392,7 @@ void OpeningFlows::after_step(const StepReport& report) {
     std::size_t by = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < openings_.size(); ++o) {
-      const Opening& opening = openings_[o];
+      const Opening& opening = poses_[o].end;
       const Vector3d way = particle.position - opening.centre;
       // out of its pocket, by the side that is farthest off
       const double outside =
@@ -317,7 +415,7 @@ void OpeningFlows::command(std::size_t opening, double time, double discharge) {
     wet.push_back(column.wet || cases_[opening].kind != OpeningKind::inlet);
     if (wet.back()) area += column.area;
   }
-  const std::vector<double> profile = profile_of(openings_[opening], cases_[opening].profile, wet);
+  const std::vector<double> profile = profile_of(openings_[opening], shapes_[opening], wet);
   const double most = fastest_of_sound * sound_speed_ * area / *std::max_element(profile.begin(), profile.end());
   const double limited = std::min(discharge, cases_[opening].command->greatest_discharge.value_or(discharge));
   if (!std::isfinite(discharge) || discharge < 0 || limited > most)

@@ -40,14 +40,19 @@ class WaterBefore {
 /// taken at once, it would reach the layers too soon, and send back a third of a pulse four supports long.
 class OpeningFlows {
  public:
-  /// `laws`: one an opening. Throws Error for a law that asks for more than a tenth of the speed of sound.
-  OpeningFlows(const Case& settled_case, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws);
+  /// `laws`: one an opening; `references`: what each owner of walls turns about, m. Throws Error for a law that asks for more than a tenth
+  /// of the speed of sound.
+  OpeningFlows(const Case& settled_case, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws,
+               std::vector<Vector3d> references);
 
   bool any() const { return !openings_.empty(); }
   /// Before the start: the water beyond keeps its state; what leaves at the far ends is no more in the water.
   void hold(Solver& solver) const;
-  /// Sets what the step from `time` begins with, and lets in what comes in the course of it.
-  void before_step(Solver& solver, double time, double time_step);
+  /// Whether one is in a body that moves.
+  bool any_moves() const { return any_moves_; }
+  /// Sets what the step from `time` begins with, and lets in what comes in the course of it. `begin`, `end`: where walls are then; of a
+  /// case whose openings all stand they are not read.
+  void before_step(Solver& solver, double time, double time_step, const WallMotions& begin, const WallMotions& end);
   void after_step(const StepReport& report);
 
   /// m³/s (2-D: m²/s), of a commanded opening, from `time` on. Throws Error for another opening, and for a value that is not finite,
@@ -66,29 +71,53 @@ class OpeningFlows {
     double wanted = 0;         ///< m³/s, the last command
     double command_time = -1;  ///< s; none before the first
   };
+  /// Where an opening is in a step.
+  struct Pose {
+    Opening begin, end;
+    WallMotion wall;                        ///< at the beginning
+    Vector3d reference = Vector3d::Zero();  ///< m, that the wall turns about, then
+    Vector3d velocity_at(const Vector3d& place) const { return wall.velocity + wall.angular_velocity.cross(place - reference); }
+  };
   struct Columns {
     std::vector<double> speed, pressure;  ///< of each column, in one layer
     std::vector<bool> wet, wet_before;    ///< beyond, and before the opening
   };
 
+  void find_poses(const WallMotions& begin, const WallMotions& end);
+  std::vector<Drain> drains() const;
+  /// Before the columns, where what is beyond takes values from, m.
+  std::vector<Vector3d> points_before() const;
   Columns columns_of(std::size_t o, const std::vector<PointValue>& before) const;
   /// What the law makes of the columns of a layer that have the speed and pressure of before the opening.
-  void apply_law(std::size_t o, double value, Columns& columns) const;
+  void apply_law(std::size_t o, double time, double value, Columns& columns) const;
+  /// One opening's part of before_step. `before`: what is before its columns.
+  void set_state(std::size_t o, double time, double time_step, const std::vector<PointValue>& before, ImposedZone& zone,
+                 NewParticles& coming);
   /// Of the opening, at a time, s.
   double law_at(std::size_t o, double time, double time_step);
-  void set_given_speeds(std::size_t o, double value, bool is_velocity, double sign, Columns& columns) const;
+  void set_given_speeds(std::size_t o, double time, double value, bool is_velocity, double sign, Columns& columns) const;
+  /// m³/s, by an inlet, of what leaves at others.
+  double returned_discharge(std::size_t o) const;
+  /// m³ that have come in, as if water did so smoothly and not by particles.
+  double smooth_volume(std::size_t o) const;
   double commanded_discharge(std::size_t o, double time, double time_step);
   void let_in(std::size_t o, const Columns& columns, double time_step, NewParticles& coming);
   /// Whether water may come in by a column.
   bool lets_in(std::size_t o, std::size_t column) const;
   void hold_back(std::size_t o, double time_step, Columns& columns) const;
-  std::vector<ImposedZone> zones() const;
+  std::vector<ImposedZone> zones(double time_step) const;
   double height_of(const Vector3d& place) const { return up_.dot(place); }
   double hydrostatic(double level, const Vector3d& place) const;
 
   std::vector<OpeningCase> cases_;
   std::vector<Opening> openings_;
   std::vector<FlowLaw> laws_;
+  std::vector<Vector3d> references_;
+  std::vector<std::vector<double>> shapes_;            ///< of each opening's profile
+  std::vector<std::vector<std::size_t>> returned_by_;  ///< of each opening those that return to it
+  std::vector<std::size_t> in_order_;                  ///< those that others return to last
+  bool any_moves_ = false;
+  std::vector<Pose> poses_;
   double spacing_, support_, density_, sound_speed_, gravity_;
   int dimensions_;
   bool single_;

@@ -95,7 +95,7 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
       world(scene, layout, options.resolve),
       coupling(world, scene, layout, discretisation),
       film(world, scene, layout, discretisation),
-      openings(scene, layout, discretisation, laws),
+      openings(scene, layout, discretisation, laws, reference_points(world)),
       device(compute::choose_device(scene.device), options.time_kernels),
       solver(prepared_solver()),
       recorder(
@@ -223,7 +223,10 @@ void Simulation::Parts::find_films() {
 void Simulation::Parts::step_on() {
   coupling.set_time(time);
   find_films();
-  openings.before_step(*solver, time, time_step);
+  if (openings.any_moves())
+    openings.before_step(*solver, time, time_step, coupling.now(), coupling.at(time_step, 1));
+  else
+    openings.before_step(*solver, time, time_step, {}, {});
   report = solver->advance(world.anything_moves() ? &coupling : nullptr);
   openings.after_step(report);
   time += time_step;

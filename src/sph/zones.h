@@ -42,6 +42,9 @@ class Zones {
       add(zone.depth);
       add(zone.layers);
       add(zone.speed.empty() ? -1.0 : static_cast<double>(table));
+      add_vector(zone.drift);
+      for (int row = 0; row < 3; ++row) add_vector(zone.turning.row(row));
+      add_vector(zone.heading);
       if (!zone.speed.empty()) table += cells * field::zone_cell_count;
     }
     const double stiffness = scene.fluid.density * *scene.fluid.sound_speed * *scene.fluid.sound_speed;

@@ -17,6 +17,10 @@ TEST(Expression, IsAFunctionOfAPlace) {
 
 TEST(Expression, OrOfTime) {
   EXPECT_DOUBLE_EQ(Expression("min(t, 1)*0.5", Expression::Of::time).at(0.5), 0.25);
+  const Expression wave("t*x + z", Expression::Of::time_and_place);
+  EXPECT_DOUBLE_EQ(wave.at(2, Eigen::Vector3d(3, 0, 0.5)), 6.5);
+  EXPECT_TRUE(wave.depends_on_place());
+  EXPECT_FALSE(Expression("2*t", Expression::Of::time_and_place).depends_on_place());
   EXPECT_NE(error_of([] { Expression("x + t", Expression::Of::time); }).find("\"x + t\" is no expression of t: "), std::string::npos);
 }
 

@@ -196,5 +196,90 @@ TEST_F(OpeningsTest, PocketsThatMeetWaterOrBodiesAreRefused) {
   EXPECT_ERROR(lay_out(inside), "opens into body 'block'");
 }
 
+/// A box tank of 2 m × 1 m × 1 m as a file, whose wall at x = 0 has a part "port" of these corners (y, z), and whatever is left of it as
+/// another.
+class PartsTest : public GeometryTest {
+ protected:
+  using Corners = std::vector<std::array<double, 2>>;
+
+  Case tank_with_port(const std::string& port_faces, const Corners& port, int dimensions = 3) const {
+    const int last = static_cast<int>(port.size());
+    std::string text = "o walls\n";
+    for (const double x : {0.0, 2.0})
+      for (const double y : {-0.5, 0.5})
+        for (const double z : {0.0, 1.0}) text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    for (const auto& [y, z] : port) text += "v " + std::to_string(bump) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    text += "f 1 5 7 3\nf 1 2 6 5\nf 3 7 8 4\nf 5 6 8 7\n";  // floor, sides, far end; the top is open
+    // the wall about the port, as a fan from its corners: a quadrilateral between each side and the one of the wall that it faces
+    const int wall[4] = {1, 3, 4, 2};
+    for (int k = 0; k < 4; ++k) {
+      const int a = wall[k], b = wall[(k + 1) % 4];
+      const int p = 9 + k * last / 4, q = 9 + (k + 1) * last / 4 % last;
+      text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(q);
+      for (int v = (q == 9 ? 9 + last : q) - 1; v >= p; --v) text += " " + std::to_string(v);
+      text += "\n";
+    }
+    text += "o port\n" + port_faces;
+    Case scene = box_case(Vector3d(2, dimensions == 2 ? 0.0 : 1.0, 1), 0.6, 0.1);
+    scene.fluid.fill = {Box{Vector3d(0, dimensions == 2 ? 0 : -0.5, 0), Vector3d(2, dimensions == 2 ? 0 : 0.5, 0.6)}};
+    scene.tank.shape = source(write("tank.obj", text));
+    OpeningCase opening;
+    opening.name = "hole";
+    opening.velocity = "1";
+    opening.part = "port";
+    scene.openings = {opening};
+    return scene;
+  }
+
+  const Corners square{{-0.2, 0.2}, {0.2, 0.2}, {0.2, 0.6}, {-0.2, 0.6}};
+  double bump = 0;  ///< m, of the port out of the wall
+};
+
+TEST_F(PartsTest, ARectangleIsAsIfItWereGivenByItsSize) {
+  for (const int dimensions : {2, 3}) {
+    const Case by_part = tank_with_port("f 9 10 11 12\n", square, dimensions);
+    Case by_size = by_part;
+    by_size.openings = {hole(Vector3d(0, 0, 0.4), Vector3d::UnitX(), 0.4, 0.4)};
+    const Layout a = lay_out(by_part), b = lay_out(by_size);
+    const Opening &part = a.openings[0], &size = b.openings[0];
+    EXPECT_EQ(part.shape, Opening::Shape::rectangle);
+    EXPECT_LT((part.normal - Vector3d::UnitX()).norm(), 1e-9);
+    EXPECT_LT((part.centre - size.centre).norm(), 1e-6);
+    EXPECT_NEAR(part.area, size.area, 1e-6);
+    EXPECT_EQ(part.columns.size(), size.columns.size());
+    EXPECT_NEAR(wall_at(a, 0, 0, dimensions), wall_at(b, 0, 0, dimensions), 1e-6);
+    EXPECT_EQ(a.particles.size(), b.particles.size());
+  }
+}
+
+TEST_F(PartsTest, APolygonHasColumnsOfItsArea) {
+  const Corners octagon{{-0.25, 0.2}, {0.0, 0.1}, {0.25, 0.2}, {0.3, 0.5}, {0.2, 0.7}, {-0.2, 0.7}, {-0.3, 0.6}, {-0.3, 0.4}};
+  const Layout layout = lay_out(tank_with_port("f 9 10 11 12 13 14 15 16\n", octagon));
+  const Opening& opening = layout.openings[0];
+  EXPECT_EQ(opening.shape, Opening::Shape::polygon);
+  double area = 0;
+  for (std::size_t k = 0; k < octagon.size(); ++k) {
+    const auto &p = octagon[k], &q = octagon[(k + 1) % octagon.size()];
+    area += 0.5 * (p[0] * q[1] - q[0] * p[1]);
+  }
+  EXPECT_NEAR(opening.area, area, 1e-6);
+  EXPECT_NEAR(wall_at(layout, 0, 0, 3), 1 - area, 1e-6);
+  EXPECT_NEAR(wall_at(layout, 0, -0.5, 3), area, 1e-6);
+}
+
+TEST_F(PartsTest, ThatCannotBeAreRefused) {
+  Case scene = tank_with_port("f 9 10 11 12\n", square);
+  scene.openings[0].part = "prot";
+  EXPECT_ERROR(lay_out(scene), "opening 'hole' is to be part 'prot' of mesh 'tank.obj', which has the parts");
+  EXPECT_ERROR(lay_out(scene), "port");
+  scene.openings[0].part = "port";
+  scene.openings[0].normal = Vector3d::UnitZ();
+  EXPECT_ERROR(lay_out(scene), "not along the normal given");
+  scene.openings[0].normal = -Vector3d::UnitX();
+  EXPECT_ERROR(lay_out(scene), "its normal must point into the water");
+  EXPECT_ERROR(lay_out(tank_with_port("f 9 10 11 12\nf 1 3 9\n", square)), "it must be convex and without holes");
+  EXPECT_ERROR(lay_out(tank_with_port("f 9 10 11 12\nf 9 10 5\n", square)), "is not flat: its corner at");
+}
+
 }  // namespace
 }  // namespace wavetank

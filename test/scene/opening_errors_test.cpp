@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
               "normal: [1, 0, 0]",
               "normal: [0, 0, 0]",
               {"openings/0/normal is [0, 0, 0]; it must be a direction into the water"}},
-        Fault{"NoShape", "    size: [0.4, 0.4]\n", "", {"openings/0 has neither size nor diameter"}},
+        Fault{"NoShape", "    size: [0.4, 0.4]\n", "", {"openings/0 has neither size nor diameter nor part"}},
         Fault{"TwoShapes", "    size:", "    diameter: 1\n    size:", {"openings/0 has both diameter and size"}},
         Fault{"FlatSize",
               "size: [0.4, 0.4]",
@@ -52,10 +52,28 @@ INSTANTIATE_TEST_SUITE_P(
               {"openings/0/size is [0.4, 0]; it must be greater than 0 in either direction"}},
         Fault{"UpAlongNormal", "    size:", "    up: [2, 0, 0]\n    size:", {"openings/0/up is along openings/0/normal"}},
         Fault{"UpOfADisc", "    diameter:", "    up: [0, 0, 1]\n    diameter:", {"openings/1/up is for rectangles"}},
-        Fault{"NoLaw",
-              "    discharge: 0.1*t\n",
-              "",
-              {"openings/0 is an opening of kind inlet without a law; give one of velocity, discharge, record, command"}},
+        Fault{
+            "NoLaw",
+            "    discharge: 0.1*t\n",
+            "",
+            {"openings/0/kind is inlet without a law; give one of velocity, discharge, record, command, or an outlet that returns_to it"}},
+        Fault{"ReturnToNobody", "    level: 0.9", "    returns_to: tap", {"openings/1/returns_to is tap, which is no opening of the case"}},
+        Fault{"ReturnToAnOutlet", "    level: 0.9", "    returns_to: drain", {"openings/1/returns_to is drain, which is no inlet"}},
+        Fault{"ReturnToALaw", "    level: 0.9", "    returns_to: hose", {"openings/1/returns_to is hose, which has a law of its own"}},
+        Fault{"ReturnOfAnInlet",
+              "    discharge:",
+              "    returns_to: hose\n    discharge:",
+              {"openings/0/returns_to is for outlets, and this one's kind is inlet"}},
+        Fault{"PartOfABox",
+              "    centre: [0, 0.5, 0.5]\n    normal: [1, 0, 0]\n    size: [0.4, 0.4]\n",
+              "    part: port\n",
+              {"openings/0/part is port, but the tank is no mesh and has no parts; give centre, normal and size"}},
+        Fault{"PartAndCentre", "    size: [0.4, 0.4]", "    part: port", {"openings/0/centre is given as well as part"}},
+        Fault{"NoCentre", "    centre: [0, 0.5, 0.5]\n", "", {"openings/0/centre is missing; it must be given"}},
+        Fault{"NoProfile",
+              "    discharge:",
+              "    profile: flat\n    discharge:",
+              {"openings/0/profile: \"flat\" is no expression of x, y and z"}},
         Fault{"TwoLaws", "    discharge:", "    velocity: 1\n    discharge:", {"openings/0/discharge is given as well as velocity"}},
         Fault{"LawOfAnotherKind",
               "    discharge:",
@@ -78,11 +96,16 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"SameName", "name: drain", "name: pier", {"openings/1/name is pier, as is bodies/0/name"}}),
     [](const testing::TestParamInfo<Fault>& info) { return info.param.name; });
 
-TEST(OpeningOfABodyThatMoves, IsRefused) {
-  const std::string moving =
-      replaced(replaced(sound, "{name: pier,", "{name: pier, motion: commanded,"), "    kind: outlet", "    kind: outlet\n    body: pier");
-  EXPECT_TRUE(contains(error_of(moving), "openings/1/body is pier, which moves; openings are for bodies that are fixed"))
-      << error_of(moving);
+TEST(OpeningOfABodyThatMoves, HasNeitherFreedomNorLevel) {
+  const auto with_motion = [](const std::string& motion) {
+    return replaced(replaced(sound, "{name: pier,", "{name: pier, " + motion + ","), "    kind: outlet",
+                    "    kind: outlet\n    body: pier");
+  };
+  const std::string free = with_motion("motion: free, density: 500"), level = with_motion("motion: commanded");
+  EXPECT_TRUE(contains(error_of(free), "openings/1/body is pier, which moves freely; openings are for bodies that are fixed"))
+      << error_of(free);
+  EXPECT_TRUE(contains(error_of(level), "openings/1/body is pier, which moves, but the opening has a level or a head")) << error_of(level);
+  EXPECT_EQ(error_of(replaced(level, "    level: 0.9\n", "")), "(no error)");
 }
 
 TEST(OpeningOfATankThatMoves, IsRefused) {
@@ -114,6 +137,15 @@ TEST(Openings, AreReadAndWritten) {
   EXPECT_EQ(again.openings[0].command->greatest_discharge, 0.2);
   EXPECT_FALSE(again.openings[0].command->greatest_rate);
   EXPECT_EQ(again.openings[1].diameter, 0.4);
+  std::string returning = replaced(sound, "    discharge: 0.1*t\n", "    profile: 1 - z^2\n");
+  returning = replaced(returning, "    level: 0.9", "    returns_to: hose");
+  const Case circuit = read_case_text(write_case(read_case_text(returning, "case.yaml", {})), "again.yaml", {});
+  EXPECT_EQ(circuit.openings[0].profile, "1 - z^2");
+  EXPECT_EQ(circuit.openings[1].returns_to, "hose");
+  std::string by_part = replaced(sound, "  box: {size: [2, 1, 2]}", "  mesh: tank.obj");
+  by_part = replaced(by_part, "    centre: [0, 0.5, 0.5]\n    normal: [1, 0, 0]\n    size: [0.4, 0.4]\n", "    part: port\n");
+  EXPECT_EQ(error_of(by_part), "(no error)");
+  EXPECT_EQ(read_case_text(write_case(read_case_text(by_part, "case.yaml", {})), "again.yaml", {}).openings[0].part, "port");
 }
 
 }  // namespace

@@ -265,7 +265,7 @@ Case fountain(Integrator integrator) {
   hose.diameter = 0.12;
   hose.body = "nozzle";
   hose.velocity = "1.5";
-  hose.profile = FlowProfile::parabolic;
+  hose.profile = "parabolic";
   OpeningCase near = opening("near", OpeningKind::outlet, Vector3d(0.2, 0.2, 0), Vector3d::UnitZ(), 0.2);
   near.size = std::array<double, 2>{0.2, 0.2};
   OpeningCase far = near;
@@ -331,6 +331,113 @@ TEST_F(Openings, AnInletBelowItsLevelIsRefused) {
   scene.openings[0].size = std::array<double, 2>{1.0, 0.2};
   scene.openings[0].level = 0.25;
   EXPECT_NE(error_of([&scene] { Simulation simulation(scene); }).find("opening 'start'"), std::string::npos);
+}
+
+/// A nozzle in a body that swings and moves about over an empty tank, and blows.
+Case swinging_nozzle(const std::string& velocity) {
+  Case scene = box_case(Vector3d(1.6, 0, 1.2), 0.1, 0.02);
+  scene.fluid.fill.clear();
+  scene.fluid.sound_speed = 60;
+  scene.duration = 2;
+  BodyCase arm;
+  arm.name = "arm";
+  arm.shape = Box{Vector3d(0.6, 0, 0.7), Vector3d(0.8, 0, 0.9)};
+  arm.motion = Motion::prescribed;
+  arm.rigid.prescribed.harmonics = {{Direction::pitch, 0.7, 1.3, 0.0, 0.1}, {Direction::surge, 0.1, 1.1, 0.0, 0.1}};
+  scene.bodies = {arm};
+  OpeningCase nozzle = opening("nozzle", OpeningKind::inlet, Vector3d(0.8, 0, 0.8), Vector3d::UnitX(), 0.08);
+  nozzle.body = "arm";
+  nozzle.velocity = velocity;
+  scene.openings = {nozzle};
+  return scene;
+}
+
+// Seen from the body the water beyond stands on its lattice, however the body moves, and whether water flows or not.
+TEST_F(Openings, OfABodyThatMovesCarryTheirLattice) {
+  for (const std::string velocity : {"0", "0.8"}) {
+    Simulation simulation(swinging_nozzle(velocity));
+    const Vector3d reference = simulation.bodies().reference(1);
+    std::size_t looked_at = 0;
+    while (simulation.state().time < 0.8) {
+      simulation.advance();
+      if (simulation.state().step % 20 != 0) continue;
+      const RigidState arm = simulation.bodies().state(1);
+      std::map<int, std::vector<double>> behind;  // along x, by row
+      for (const auto& [id, place] : places_of(simulation)) {
+        const Vector3d home = reference + arm.orientation.conjugate() * (place.cast<double>() - arm.position);
+        if (home.x() > 0.8 - 1e-3 * 0.02 || std::abs(home.z() - 0.8) > 0.04 || home.x() < 0.6) continue;
+        const double row = (home.z() - 0.76) / 0.02 - 0.5;
+        ASSERT_NEAR(row, std::round(row), 5e-3) << "at t = " << simulation.state().time;
+        behind[static_cast<int>(std::lround(row))].push_back(home.x());
+      }
+      ASSERT_EQ(behind.size(), 4u);
+      for (auto& [row, along] : behind) {
+        std::sort(along.begin(), along.end());
+        ASSERT_GE(along.size(), 4u);
+        for (std::size_t k = 1; k < along.size(); ++k) ASSERT_NEAR(along[k] - along[k - 1], 0.02, 5e-3 * 0.02) << "in row " << row;
+        ++looked_at;
+      }
+    }
+    EXPECT_GT(looked_at, 40u);
+    const OpeningState& state = simulation.openings()[0];
+    EXPECT_EQ(state.mass_out, 0);
+    EXPECT_NEAR(state.mass_in, 1000 * 0.08 * 0.8 * std::stod(velocity), 1000 * 0.08 * 0.02);
+  }
+}
+
+TEST_F(Openings, OfABodyThatMovesRepeatFromASnapshot) {
+  Simulation first(swinging_nozzle("0.8")), second(swinging_nozzle("0.8"));
+  run_steps(first, 150);
+  first.save(path("middle"));
+  const Samples rest = run_steps(first, 100);
+  second.restore(path("middle"));
+  EXPECT_TRUE(same(rest, run_steps(second, 100)));
+  EXPECT_EQ(snapshot(first), snapshot(second));
+}
+
+// What leaves comes back: a channel that drives itself keeps its water, and what an outlet pumps the inlet brings.
+TEST_F(Openings, BringBackWhatLeavesAtAnother) {
+  Case scene = channel("");
+  scene.fluid.current = Vector3d(0.4, 0, 0);
+  scene.openings[1].level.reset();
+  scene.openings[1].discharge = "0.1 + 0.06*sin(5*t)";
+  scene.openings[1].returns_to = "start";
+  Simulation simulation(scene);
+  const double mass = mass_of(simulation);
+  double farthest = 0;
+  while (simulation.state().time < 3) {
+    simulation.advance();
+    farthest = std::max(farthest, std::abs(mass_of(simulation) - mass));
+    if (simulation.state().time > 0.1)
+      ASSERT_NEAR(simulation.openings()[0].discharge, -simulation.openings()[1].discharge, 0.1 * 0.16) << simulation.state().time;
+  }
+  EXPECT_GT(simulation.openings()[1].mass_out, 0.9 * 1000 * 0.1 * 3);
+  EXPECT_LT(farthest, 2.1 * depth * spacing * 1000);  // a row of particles at either end
+}
+
+TEST_F(Openings, HaveTheProfileOfAnExpression) {
+  Case shear = channel("0.4");
+  shear.openings[0].profile = "2*z";
+  Case by_place = channel("(0.4 + 0*t)*2*z/0.4");
+  for (const Case& scene : {shear, by_place}) {
+    Simulation simulation(scene);
+    while (simulation.state().time < 0.3) simulation.advance();
+    EXPECT_NEAR(simulation.openings()[0].discharge, 0.4 * depth, 1e-6);
+    const ParticleCloud cloud = simulation.particles();
+    int looked_at = 0;
+    for (std::size_t i = 0; i < cloud.id.size(); ++i) {
+      if (cloud.position[i].x() > -1e-3 || cloud.position[i].z() > depth) continue;
+      const double row = (std::floor(cloud.position[i].z() / spacing) + 0.5) * spacing;
+      EXPECT_NEAR(cloud.velocity[i].x(), 0.4 * 2 * row / depth, 1e-5);
+      ++looked_at;
+    }
+    EXPECT_GT(looked_at, 40);
+  }
+  shear.openings[0].profile = "z - 0.1";
+  EXPECT_NE(error_of([&] { Simulation simulation(shear); }).find("opening 'start': its profile at (0, 0, 0.02) m is -0.08; it must be"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { Simulation simulation(channel("z - 0.1")); }).find("opening 'start': its velocity at t = 0 s is -0.08"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -6,11 +6,12 @@
 
 namespace wavetank {
 
-/// A number as a function of a place or of time, given as text: of x, y and z, or of t, with + − * / ^, comparisons, `? :`, pi, and sin,
-/// cos, tan, exp, ln, log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between threads.
+/// A number as a function of a place or of time or of both, given as text: of x, y and z, of t, or of all four, with + − * / ^,
+/// comparisons, `? :`, pi, and sin, cos, tan, exp, ln, log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between
+/// threads.
 class Expression {
  public:
-  enum class Of { place, time };
+  enum class Of { place, time, time_and_place };
 
   /// Throws Error, which says what is wrong and at which character, for text that is none.
   explicit Expression(const std::string& text, Of of = Of::place);
@@ -22,6 +23,9 @@ class Expression {
   double at(const Eigen::Vector3d& place) const;
   /// At a time, s; likewise.
   double at(double time) const;
+  double at(double time, const Eigen::Vector3d& place) const;
+  /// Whether x, y or z is in it.
+  bool depends_on_place() const;
 
  private:
   struct Parser;

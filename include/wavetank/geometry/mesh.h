@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,18 @@ namespace wavetank {
 
 using Eigen::Vector3i;
 
+/// Triangles that bear a name in a mesh file: of a node, of a mesh or of a material there.
+struct MeshPart {
+  std::string name;
+  std::vector<std::array<Vector3d, 3>> triangles;  ///< corners, m; none of a part that was not asked for
+};
+
 /// Triangles over shared vertices (equal positions are one vertex). Unit: m.
 struct TriangleMesh {
   std::string name;  ///< of the file or the shape, for messages
   std::vector<Vector3d> vertices;
   std::vector<Vector3i> triangles;
+  std::vector<MeshPart> parts;  ///< of a file
 
   Vector3d corner(std::size_t triangle, int which) const { return vertices[triangles[triangle][which]]; }
   Box bounding_box() const;
@@ -35,7 +43,9 @@ struct TriangleMesh {
 /// shape://cylinder?radius=R&length=L, of the last two also &facets=N round a circle, a multiple of 4 from 8 to 512, 24 unless given. Its
 /// volume is that of the true shape, so its corners lie a little outside of that and the middles of its facets a little inside: with 24
 /// facets by at most 1.5 % of a sphere's radius and 0.6 % of a cylinder's.
-TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve);
+/// `wanted_parts`: names of those parts whose triangles are kept apart as well.
+TriangleMesh read_mesh(const MeshSource& source, const std::string& case_directory, const ResourceResolver& resolve,
+                       const std::vector<std::string>& wanted_parts = {});
 
 /// The twelve triangles of a box, wound outwards; without those of the top if it is open.
 TriangleMesh box_mesh(const Box& box, bool open_top, const std::string& name, const Top& top = {});

@@ -11,13 +11,16 @@ namespace wavetank {
 /// An opening where it lies in a wall. Water beyond its plane, in a pocket as deep as the kernel's support and a little more, has an
 /// imposed state; it stands on a lattice of rows of about the spacing, one behind the other, of as many columns.
 struct Opening {
+  enum class Shape { rectangle, disc, polygon };
+
   std::string name;
+  Shape shape = Shape::rectangle;
   int owner = 0;                        ///< of the wall: 0 the tank, 1 + i body i
   Vector3d centre = Vector3d::Zero();   ///< m
   Vector3d normal = Vector3d::UnitX();  ///< unit, into the water
   Vector3d across = Vector3d::UnitY();  ///< unit, along the width
   Vector3d up = Vector3d::UnitZ();      ///< unit, along the height
-  double width = 0, height = 0;         ///< m; of a disc both the diameter; in 2-D the width is 0
+  double width = 0, height = 0;         ///< m; of a disc both the diameter, of a polygon about it; in 2-D the width is 0
   std::vector<Vector3d> outline;        ///< corners, anticlockwise seen from the water; in 2-D the lower and the upper end
   double area = 0;                      ///< m² (2-D: m), that the columns make up
 

@@ -248,7 +248,6 @@ enum class OpeningKind {
   outlet,   ///< leaves freely, to a level beyond the opening, or at a discharge
   pressure  ///< stands under a head beyond the opening, and flows either way
 };
-enum class FlowProfile { uniform, parabolic };
 enum class FlowQuantity { discharge, velocity, head };
 
 /// A column of a file of comma-separated values with one header line, followed in straight lines; held at its ends.
@@ -268,23 +267,25 @@ struct FlowCommandCase {
   double timeout = 0.5;                      ///< s of simulated time without a command after which the discharge goes to zero; 0 = never
 };
 
-/// A plane hole in a wall of the tank or of a body that stands, through which water comes and goes.
+/// A plane hole in a wall of the tank or of a body that is not free, through which water comes and goes.
 struct OpeningCase {
   std::string name;
   OpeningKind kind = OpeningKind::inlet;
-  std::string body;                            ///< in whose wall it is; empty = the tank
-  Vector3d centre = Vector3d::Zero();          ///< m
-  Vector3d normal = Vector3d::Zero();          ///< into the water; any length but 0
-  std::optional<std::array<double, 2>> size;   ///< m, width and height of a rectangle; the width is not used in 2-D
-  std::optional<Vector3d> up;                  ///< direction of the height; none = against gravity, or else along x
-  std::optional<double> diameter;              ///< m, of a disc; exactly one of size and diameter is given
-  std::string velocity;                        ///< m/s, mean over the wet part: an expression of t (Expression); empty = not given
-  std::string discharge;                       ///< m³/s (2-D: m²/s), likewise
-  std::string head;                            ///< m, likewise: height that water beyond would stand to
-  std::optional<FlowRecordCase> record;        ///< of one of these three, which is then not given
-  std::optional<FlowCommandCase> command;      ///< the discharge is commanded: none of the above is given
-  FlowProfile profile = FlowProfile::uniform;  ///< of the velocity, where it is given
-  std::optional<double> level;                 ///< m, of the free surface: of water that comes in; beyond an outlet
+  std::string body;                           ///< in whose wall it is; empty = the tank
+  Vector3d centre = Vector3d::Zero();         ///< m
+  Vector3d normal = Vector3d::Zero();         ///< into the water; any length, 0 only with a part
+  std::optional<std::array<double, 2>> size;  ///< m, width and height of a rectangle; the width is not used in 2-D
+  std::optional<Vector3d> up;                 ///< direction of the height; none = against gravity, or else along x
+  std::optional<double> diameter;             ///< m, of a disc; exactly one of size, diameter and part is given
+  std::string part;                           ///< of the wall's mesh, by its name: the opening is where that is; empty = not given
+  std::string velocity;                       ///< m/s, mean over the wet part: an expression of t, or of t and place; empty = not given
+  std::string discharge;                      ///< m³/s (2-D: m²/s), likewise
+  std::string head;                           ///< m, likewise: height that water beyond would stand to
+  std::optional<FlowRecordCase> record;       ///< of one of these three, which is then not given
+  std::optional<FlowCommandCase> command;     ///< the discharge is commanded: none of the above is given
+  std::string profile = "uniform";            ///< of the velocity, where it is given: uniform, parabolic, or an expression of x, y, z
+  std::string returns_to;                     ///< of an outlet: the inlet, without a law of its own, by which what leaves comes in again
+  std::optional<double> level;                ///< m, of the free surface: of water that comes in; beyond an outlet
 };
 
 enum class WallMethod { boundary_integral, ghost };

@@ -168,17 +168,20 @@ struct Drain {
 
 /// A block of water, behind an opening, whose state is given: a box divided into columns along its normal.
 struct ImposedZone {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< m, of the box's front face, in the case's coordinates
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, out of the box through its front face
-  Eigen::Vector3d across = Eigen::Vector3d::UnitY();  ///< unit
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();      ///< unit
-  double depth = 0;                                   ///< m, against the normal
-  std::array<int, 2> cells{1, 1};                     ///< across and up
-  std::array<double, 2> cell_size{0, 0};              ///< m; across it may be 0 in 2-D
-  std::array<double, 2> first_edge{0, 0};             ///< m from the centre, of the first cell's outer edges
-  int layers = 1;                                     ///< into which the depth is divided
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m, of the box's front face, in the case's coordinates
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, out of the box through its front face
+  Eigen::Vector3d across = Eigen::Vector3d::UnitY();   ///< unit
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();       ///< unit
+  double depth = 0;                                    ///< m, against the normal
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();     ///< m/s, at which the water at the centre is carried, whatever its speed
+  Eigen::Matrix3d turning = Eigen::Matrix3d::Zero();   ///< 1/s: drift + turning (x − centre) at a place x
+  Eigen::Vector3d heading = Eigen::Vector3d::UnitX();  ///< unit, of the speed: the normal, of a zone that turns that at the step's end
+  std::array<int, 2> cells{1, 1};                      ///< across and up
+  std::array<double, 2> cell_size{0, 0};               ///< m; across it may be 0 in 2-D
+  std::array<double, 2> first_edge{0, 0};              ///< m from the centre, of the first cell's outer edges
+  int layers = 1;                                      ///< into which the depth is divided
   std::vector<double>
-      speed;  ///< m/s along the normal, by layer from the front, then cell, across fastest; none: what particles have is kept
+      speed;  ///< m/s along the heading, by layer from the front, then cell, across fastest; none: what particles have is kept
   std::vector<double> pressure;  ///< Pa, gauge, likewise
   std::vector<char> is_free;     ///< of each cell of the front: what is behind it is no part of the zone; empty: none is so
 };

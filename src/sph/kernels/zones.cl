@@ -53,8 +53,14 @@ __kernel void impose_zones(__constant const parameters_t* p, int count, __global
   const in_zone_t at = zone_of(zone_count, zones, state, stride, i);
   if (at.values < 0) return;
   __global const real* values = zones + at.values;
-  __global const real* normal = zones + at.zone * ZONE_COUNT + ZONE_NORMAL;
-  for (int axis = 0; axis < 3; ++axis) state[(FIELD_U + axis) * stride + i] = values[0] * normal[axis];
+  __global const real* zone = zones + at.zone * ZONE_COUNT;
+  real way[3];
+  for (int axis = 0; axis < 3; ++axis) way[axis] = state[(FIELD_X + axis) * stride + i] - zone[ZONE_CENTRE + axis];
+  for (int axis = 0; axis < 3; ++axis) {
+    __global const real* turning = zone + ZONE_TURNING + 3 * axis;
+    const real carried = zone[ZONE_DRIFT + axis] + (turning[0] * way[0] + turning[1] * way[1] + turning[2] * way[2]);
+    state[(FIELD_U + axis) * stride + i] = values[0] * zone[ZONE_HEADING + axis] + carried;
+  }
   state[FIELD_PRESSURE * stride + i] = values[1];
   state[FIELD_COMPRESSION * stride + i] = values[2];
 #ifdef RATE_VOLUME

@@ -87,8 +87,11 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(zone_depth, 16, "m, behind the front") \
   ROW(zone_layers, 17, "into which the depth is divided") \
   ROW(zone_table, 18, "where its cells' values begin, or −1") \
-  ROW(zone_count, 19, "values of a zone") \
-  ROW(zone_cell_count, 4, "values of a cell: speed along the normal, pressure, compression, 1 if it is of the zone") \
+  ROW(zone_drift, 19, "m/s, at which water at the centre is carried") \
+  ROW(zone_turning, 22, "1/s, what is added to that from the centre on, by row") \
+  ROW(zone_heading, 31, "of the speed") \
+  ROW(zone_count, 34, "values of a zone") \
+  ROW(zone_cell_count, 4, "values of a cell: speed along the heading, pressure, compression, 1 if it is of the zone") \
   ROW(energy_count, 8, "kinetic, potential, of compression, mass, three moments of mass, and the acoustic damper's power") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")
