@@ -54,7 +54,7 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-void set_outline_3d(const OpeningCase& given, const MeshPart& part, const Vector3d& origin, Opening& opening) {
+void set_outline_3d(const OpeningCase& given, const MeshPart& part, const Vector3d& origin, double spacing, Opening& opening) {
   std::vector<Eigen::Vector2d> points;
   double area = 0;
   for (const auto& triangle : part.triangles) {
@@ -72,7 +72,7 @@ void set_outline_3d(const OpeningCase& given, const MeshPart& part, const Vector
   opening.centre = origin + 0.5 * (low.x() + high.x()) * opening.across + 0.5 * (low.y() + high.y()) * opening.up;
   for (const Eigen::Vector2d& point : hull) opening.outline.push_back(origin + point.x() * opening.across + point.y() * opening.up);
   const double whole = vector_area(opening.outline).norm();
-  const bool fills = std::abs(whole - opening.width * opening.height) < 1e-6 * whole;
+  const bool fills = std::abs(whole - opening.width * opening.height) < flat * spacing * (opening.width + opening.height);
   opening.shape = fills ? Opening::Shape::rectangle : Opening::Shape::polygon;
   if (std::abs(area - whole) > 1e-3 * whole)
     throw Error("opening '" + given.name + "': part '" + given.part + "' fills " + describe(area) + " m² of the " + describe(whole) +
@@ -133,12 +133,14 @@ void place_by_part(const OpeningCase& given, const TriangleMesh& mesh, bool is_b
     const auto wound = [&](double way) { return std::abs(winding_number(mesh, origin + way * 1e-3 * spacing * normal)); };
     if ((wound(1) > wound(-1)) == is_body) normal = -normal;
   }
+  if (given.up && given.up->cross(normal).norm() <= 1e-6 * given.up->norm())
+    throw Error(what + "faces along up, which must be a direction within it");
   opening.normal = normal;
   set_axes(given.up, against_gravity, dimensions, opening);
   if (dimensions == 2)
     set_outline_2d(given, part, origin, opening);
   else
-    set_outline_3d(given, part, origin, opening);
+    set_outline_3d(given, part, origin, spacing, opening);
 }
 
 }  // namespace wavetank

@@ -284,6 +284,9 @@ void check_openings(const std::vector<Opening>& openings, const Basin& basin, co
       if (!closed.reached(front, front))
         throw Error(called(opening) + " opens where no water can come to, about " + describe(front) +
                     " m; its normal must point into the water");
+      if (opening.owner > 0 &&
+          basin.grid->crosses(in_row(opening, column, 0, spacing), column.place - opening.pocket * opening.normal, Walls::tank))
+        throw Error(behind + "passes through a wall of the tank; make the body thicker, or move it");
       for (const Vector3d& place : places_behind(opening, column, spacing)) {
         if (closed.reached(place, place))
           throw Error(behind + "meets the space that water can reach, about " + describe(place) +

@@ -10,7 +10,7 @@ namespace {
 
 /// printf into a string.
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
-  char text[400];
+  char text[600];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);
@@ -40,6 +40,17 @@ std::string owner_text(const OwnerSize& owner, const Case& checked, bool is_box_
 
 std::string over(double length, double spacing) { return formatted("%.4g m, %.3g particles", length, length / spacing); }
 
+std::string waves_text(const ExpectedWaves& waves, double spacing) {
+  const WaveFacts& facts = waves.facts;
+  std::string text = formatted("%.4g m high, %.3g spacings", facts.height, facts.height / spacing);
+  if (facts.period > 0) text += formatted(", period %.4g s", facts.period);
+  text += formatted(
+      ", %.4g m long, %.4g m/s, in %s water; stroke %.4g m, steepness %.3g, Ursell number %.3g; %.3g wavelengths to the tank's end",
+      facts.wavelength, facts.celerity, facts.regime.c_str(), facts.stroke, facts.steepness, facts.ursell, waves.to_end / facts.wavelength);
+  if (!facts.breaking.empty()) text += "; breaking: " + facts.breaking;
+  return text;
+}
+
 }  // namespace
 
 std::string check_report(const Case& checked, const Estimate& estimated) {
@@ -53,6 +64,7 @@ std::string check_report(const Case& checked, const Estimate& estimated) {
   text += line("least depth", over(size.least_depth, estimated.spacing));
   if (size.least_extent) text += line("least thickness", over(*size.least_extent, estimated.spacing) + ", of body " + size.thinnest_body);
   if (estimated.thinnest_wall) text += line("thinnest wall", over(*estimated.thinnest_wall, estimated.spacing));
+  for (const ExpectedWaves& waves : estimated.waves) text += line("waves of " + waves.body, waves_text(waves, estimated.spacing));
   text += line("particles", formatted("%zu, spacing %.4g m", estimated.particles, estimated.spacing));
   text += line("wall elements", formatted("%zu", estimated.wall_elements));
   text += line("lid elements", formatted("%zu", estimated.lid_elements));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "number_text.h"
+#include "wave_maker.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/record_file.h"
 #include "wavetank/scene/file_path.h"
@@ -52,11 +53,6 @@ Change smooth_step(double fraction) {
   if (fraction >= 1) return {1.0, 0.0, 0.0};
   const double s = fraction;
   return {s * s * s * (10.0 + s * (6.0 * s - 15.0)), 30.0 * s * s * (1.0 - s) * (1.0 - s), 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
-}
-
-Change smooth_rise(double time, double from, double length) {
-  const Change step = smooth_step((time - from) / length);
-  return {step.value, step.rate / length, step.acceleration / (length * length)};
 }
 
 void need(bool fulfilled, const std::string& what, const std::string& message) {
@@ -118,20 +114,24 @@ std::vector<std::pair<std::string, Direction>> followed_columns(const RecordCase
   return result;
 }
 
+std::string record_path(const std::string& file, const std::string& kind, const std::string& case_directory,
+                        const ResourceResolver& resolve, const std::string& what) {
+  try {
+    const std::string path = file_path(kind + " record", file, case_directory, resolve);
+    check_file(kind + " record", path);
+    return path;
+  } catch (const Error& error) {
+    throw Error(what + ": " + error.what());
+  }
+}
+
 void add_record(const RecordCase& record, int dimensions, const std::string& case_directory, const ResourceResolver& resolve,
                 const std::string& what, std::vector<MotionTerm>& terms) {
   need(!record.column.empty() || !record.direction, what,
        "the record '" + record.file + "' has a direction but no column; give the column that moves in this direction too");
   need(std::isfinite(record.factor) && std::isfinite(record.delay), what,
        "the record '" + record.file + "' has a factor or delay that is not finite");
-  std::string path;
-  try {
-    path = file_path("motion record", record.file, case_directory, resolve);
-    check_file("motion record", path);
-  } catch (const Error& error) {
-    throw Error(what + ": " + error.what());
-  }
-  const RecordFile file(path, what, "motion");
+  const RecordFile file(record_path(record.file, "motion", case_directory, resolve, what), what, "motion");
   std::vector<double> times = file.times(record.time_column);
   double least_gap = times[1] - times[0];
   for (std::size_t k = 2; k < times.size(); ++k) least_gap = std::min(least_gap, times[k] - times[k - 1]);
@@ -152,12 +152,23 @@ void add_record(const RecordCase& record, int dimensions, const std::string& cas
 
 }  // namespace
 
-std::vector<MotionTerm> motion_terms(const PrescribedCase& prescribed, int dimensions, const std::string& case_directory,
+Change smooth_rise(double time, double from, double length) {
+  const Change step = smooth_step((time - from) / length);
+  return {step.value, step.rate / length, step.acceleration / (length * length)};
+}
+
+std::vector<MotionTerm> motion_terms(const PrescribedCase& prescribed, int dimensions, double gravity, const std::string& case_directory,
                                      const ResourceResolver& resolve, const std::string& what) {
   std::vector<MotionTerm> terms;
   for (const HarmonicCase& harmonic : prescribed.harmonics) terms.push_back(harmonic_term(harmonic, what));
   for (const RampCase& ramp : prescribed.ramps) terms.push_back(ramp_term(ramp, what));
   for (const RecordCase& record : prescribed.records) add_record(record, dimensions, case_directory, resolve, what, terms);
+  if (prescribed.waves) {
+    const WaveCase& waves = *prescribed.waves;
+    const std::string path =
+        waves.kind == WaveKind::record ? record_path(waves.record.file, "wave", case_directory, resolve, what) : std::string();
+    terms.push_back(wave_term(waves, gravity, path, what));
+  }
   for (const MotionTerm& term : terms) {
     need(
         dimensions == 3 || exists_in_2d(term.direction), what,

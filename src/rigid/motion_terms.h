@@ -17,8 +17,11 @@ struct MotionTerm {
   double resolution;                      ///< s: times this close together show all of it
 };
 
-/// Throws Error as PrescribedMotion.
-std::vector<MotionTerm> motion_terms(const PrescribedCase& prescribed, int dimensions, const std::string& case_directory,
+/// From 0 to 1 from a time on, s, with no velocity and no acceleration at either end.
+Change smooth_rise(double time, double from, double length);
+
+/// Throws Error as PrescribedMotion. `gravity`: m/s², downwards.
+std::vector<MotionTerm> motion_terms(const PrescribedCase& prescribed, int dimensions, double gravity, const std::string& case_directory,
                                      const ResourceResolver& resolve, const std::string& what);
 
 }  // namespace wavetank

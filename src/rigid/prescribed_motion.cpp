@@ -57,10 +57,10 @@ struct PrescribedMotion::Parts {
   }
 };
 
-PrescribedMotion::PrescribedMotion(const PrescribedCase& prescribed, const Vector3d& reference, int dimensions,
+PrescribedMotion::PrescribedMotion(const PrescribedCase& prescribed, const Vector3d& reference, int dimensions, double gravity,
                                    const std::string& case_directory, const ResourceResolver& resolve, const std::string& what)
     : parts_(std::make_unique<Parts>()) {
-  parts_->terms = motion_terms(prescribed, dimensions, case_directory, resolve, what);
+  parts_->terms = motion_terms(prescribed, dimensions, gravity, case_directory, resolve, what);
   parts_->reference = reference;
   parts_->point = prescribed.point.value_or(reference);
   if (!parts_->point.allFinite()) throw Error(what + ": the point that the motion turns about is not a finite place");

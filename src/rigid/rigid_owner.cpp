@@ -17,7 +17,8 @@ void set_going(RigidOwner& owner, const Case& scene, const RigidCase& rigid, con
                const ResourceResolver& resolve) {
   owner.state.position = owner.reference;
   if (owner.motion == Motion::prescribed) {
-    owner.prescribed.emplace(rigid.prescribed, owner.reference, scene.dimensions, scene.directory, resolve, owner.what);
+    owner.prescribed.emplace(rigid.prescribed, owner.reference, scene.dimensions, scene.gravity.norm(), scene.directory, resolve,
+                             owner.what);
     owner.state = owner.prescribed->at(0);
   } else if (owner.motion == Motion::commanded) {
     owner.commanded.emplace(rigid.command, owner.reference, scene.dimensions);

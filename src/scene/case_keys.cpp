@@ -48,6 +48,26 @@ Section<FillRegion> fill_section() {
   return section;
 }
 
+Section<DampingCase> damping_section() {
+  Section<DampingCase> section;
+  section.key("box", &DampingCase::box, section_of(box_section()), "", "Where.").required = true;
+  section
+      .key("direction", &DampingCase::direction, vector(), "",
+           "Along which the damping grows, from nothing at the box's near side, with the square of the way.")
+      .required = true;
+  section
+      .key("strength", &DampingCase::strength, number(greater_than(0)), "1/s",
+           "Rate at the box's far side, at which velocities go over to `velocity`. For waves of period T in a zone of a wavelength some "
+           "10/T.")
+      .required = true;
+  section.key("velocity", &DampingCase::velocity, vector(), "m/s", "Towards which velocities go, such as that of a current.");
+  section.rule([](const DampingCase& zone, const Setting& map, const std::string& path, const Context& context) {
+    const Vector3d way = context.dimensions == 2 ? Vector3d(zone.direction.x(), 0, zone.direction.z()) : zone.direction;
+    if (way.isZero(0.0)) refuse_vector(map, path, "direction", zone.direction, "a direction, not all 0");
+  });
+  return section;
+}
+
 Section<FluidCase> fluid_section() {
   Section<FluidCase> section;
   section.key("density", &FluidCase::density, number(greater_than(0)), "kg/m³", "Density ρ₀ at rest.");
@@ -64,6 +84,8 @@ Section<FluidCase> fluid_section() {
       .key("fill", &FluidCase::fill, list_of(fill_section()), "",
            "Where the water is at the start: one or more regions; [] where all of it comes in by openings.")
       .required = true;
+  section.key("damping", &FluidCase::damping, list_of(damping_section()), "",
+              "Boxes in which the water's velocity is damped, so that waves do not come back from behind them; not where bodies are.");
   Section<InitialCase> initial;
   initial.key("u", &InitialCase::u, expression(Expression::Of::place), "m/s", "Velocity along x, such as `sin(2*pi*x)*cos(2*pi*z)`.");
   initial.key("v", &InitialCase::v, expression(Expression::Of::place), "m/s", "Along y; not used in 2-D.");

@@ -44,6 +44,11 @@ class AbsolutePaths {
     if (auto* mesh = std::get_if<MeshSource>(&whole.shape)) make_path(mesh->uri);
     for (MeshSource& part : whole.rigid.collision_parts) make_path(part.uri);
     for (RecordCase& record : whole.rigid.prescribed.records) make_path(record.file);
+    if (whole.rigid.prescribed.waves) make_path(whole.rigid.prescribed.waves->record.file);
+  }
+
+  void make(OpeningCase& opening) const {
+    if (opening.record) make_path(opening.record->file);
   }
 
  private:
@@ -78,6 +83,7 @@ std::string write_case(const Case& checked) {
   const AbsolutePaths paths(checked.directory);
   paths.make(written.tank);
   for (BodyCase& body : written.bodies) paths.make(body);
+  for (OpeningCase& opening : written.openings) paths.make(opening);
   return scene::write_settings(scene::case_section().write(written, scene::Context{written.dimensions}));
 }
 

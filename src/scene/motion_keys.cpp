@@ -1,6 +1,7 @@
 #include "motion_keys.h"
 
 #include "motion_values.h"
+#include "wave_keys.h"
 
 namespace wavetank::scene {
 namespace {
@@ -99,6 +100,7 @@ std::set<Direction> directions_of(const PrescribedCase& prescribed) {
   for (const RecordCase& record : prescribed.records) {
     if (const auto direction = direction_of(record)) directions.insert(*direction);
   }
+  if (prescribed.waves) directions.insert(prescribed.waves->direction);
   return directions;
 }
 
@@ -108,9 +110,10 @@ Section<PrescribedCase> prescribed_section() {
               "That rotations are about, where it is at the start; if it is left out, the centre of mass, for the tank the case's origin.");
   section.key("axis", &PrescribedCase::axis, axis(), "", "Of stroke, which is along it, and angle, which is about it through `point`.");
   section.key("harmonics", &PrescribedCase::harmonics, list_of(harmonic_section()), "",
-              "Oscillations; harmonics, ramps and records are added up, direction by direction.");
+              "Oscillations; harmonics, ramps, records and waves are added up, direction by direction.");
   section.key("ramps", &PrescribedCase::ramps, list_of(ramp_section()), "", "Smooth changes between two times.");
   section.key("records", &PrescribedCase::records, list_of(record_section()), "", "Motions from files, joined by a cubic spline.");
+  section.key("waves", &PrescribedCase::waves, section_if_given(wave_section()), "", "The motion of a paddle that makes waves by theory.");
   section.rule(check_plane);
   return section;
 }

@@ -19,6 +19,9 @@ class FileCheck {
     const std::vector<RecordCase>& records = whole.rigid.prescribed.records;
     for (std::size_t i = 0; i < records.size(); ++i)
       check_named("motion record", records[i].file, join_path(join_path(join_path(path, "prescribed/records"), i), "file"));
+    const std::optional<WaveCase>& waves = whole.rigid.prescribed.waves;
+    if (waves && waves->kind == WaveKind::record)
+      check_named("wave record", waves->record.file, join_path(path, "prescribed/waves/record/file"));
   }
 
   void check(const OpeningCase& opening, const std::string& path) const {

@@ -10,15 +10,6 @@
 namespace wavetank::scene {
 namespace {
 
-/// A section that may be left out as a whole.
-template <class T>
-Codec<std::optional<T>> section_if_given(const Section<T>& section) {
-  Codec<std::optional<T>> codec = if_given(section_of(section));
-  codec.holds = Holds::section;
-  codec.children = section.descriptions();
-  return codec;
-}
-
 Codec<std::array<double, 2>> rectangle_size() {
   return {"[width, height]", "each greater than 0; in 2-D the width is not used",
           [](const Setting& setting, const Item& item, Context& context) {
@@ -148,10 +139,16 @@ void check_shape(const OpeningCase& opening, const Setting& map, const std::stri
   if (context.dimensions == 2 && opening.diameter)
     refuse_key(map, path, "diameter", "is for 3-D cases; in 2-D an opening is a slot: give size: [width, height], whose width is not used");
   if (opening.diameter && opening.up) refuse_key(map, path, "up", "is for rectangles; leave it out of a disc");
-  if (opening.up && opening.up->cross(opening.normal).norm() <= 1e-6 * opening.up->norm() * opening.normal.norm())
+  if (opening.up && !opening.normal.isZero(0.0) &&
+      opening.up->cross(opening.normal).norm() <= 1e-6 * opening.up->norm() * opening.normal.norm())
     refuse_key(map, path, "up", "is along " + join_path(path, "normal") + "; it must be a direction within the opening");
-  if (opening.profile != "uniform" && opening.kind == OpeningKind::pressure)
-    refuse_key(map, path, "profile", "is for inlets and outlets of a given velocity or discharge; leave it out");
+  const bool given_flow = !opening.discharge.empty() || opening.record || opening.command || opening.kind == OpeningKind::inlet;
+  if (opening.profile != "uniform" && (opening.kind == OpeningKind::pressure || !given_flow))
+    refuse_key(map, path, "profile", "is for inlets, and for outlets of a given discharge; leave it out");
+  if (opening.profile != "uniform" && !opening.velocity.empty() &&
+      Expression(opening.velocity, Expression::Of::time_and_place).depends_on_place())
+    refuse_key(map, path, "profile",
+               "is given, and " + join_path(path, "velocity") + " depends on the place already; leave one of them out");
   if (opening.profile == "parabolic" && opening.level)
     refuse_key(map, path, "profile", "is parabolic, which is for inlets and outlets that are full; leave it out, or give an expression");
 }
@@ -165,7 +162,8 @@ Section<OpeningCase> opening_section() {
   section
       .key("kind", &OpeningCase::kind,
            choice<OpeningKind>({{"inlet", OpeningKind::inlet}, {"outlet", OpeningKind::outlet}, {"pressure", OpeningKind::pressure}}), "",
-           "`inlet`: water comes in by `velocity`, `discharge`, `record` or `command`. `outlet`: it leaves, freely unless there is a "
+           "`inlet`: water comes in by `velocity`, `discharge`, `record` or `command`, or what outlets return. `outlet`: it leaves, freely "
+           "unless there is a "
            "`level`, `discharge`, `record` or `command`. `pressure`: it stands under `head` or `record` beyond, and flows either way.")
       .required = true;
   section.key("body", &OpeningCase::body, text(), "",
@@ -188,7 +186,7 @@ Section<OpeningCase> opening_section() {
   section.key(
       "velocity", &OpeningCase::velocity, expression(Expression::Of::time_and_place), "m/s",
       "Of an inlet: the mean over the water that comes in, a number or an expression of t (s); or, with x, y or z (m) in it, that at "
-      "each place.");
+      "each place (of a body that moves, where that is at the start).");
   section.key("discharge", &OpeningCase::discharge, expression(Expression::Of::time), "m³/s",
               "Into the tank of an inlet, out of it of an outlet, a number or an expression of t (s); in 2-D a metre of width (m²/s).");
   section.key("head", &OpeningCase::head, expression(Expression::Of::time), "m",

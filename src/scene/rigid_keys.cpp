@@ -176,10 +176,11 @@ void check_rigid(const T& whole, const Setting& map, const std::string& path, co
     }
   }
   const PrescribedCase& prescribed = rigid.prescribed;
-  if (whole.motion == Motion::prescribed && prescribed.harmonics.empty() && prescribed.ramps.empty() && prescribed.records.empty())
+  if (whole.motion == Motion::prescribed && prescribed.harmonics.empty() && prescribed.ramps.empty() && prescribed.records.empty() &&
+      !prescribed.waves)
     refuse_key(map, path, "motion",
                "is prescribed, but nothing prescribes it; give " + join_path(path, "prescribed") +
-                   " at least one of harmonics, ramps and records");
+                   " at least one of harmonics, ramps, records and waves");
   check_collision(rigid, map, path);
 }
 

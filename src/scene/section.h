@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "motion_values.h"
 #include "values.h"
 
 /// A section of a case: the keys of one YAML map and the struct that they fill. Everything that happens to a key (reading, checking,
@@ -187,6 +188,15 @@ Codec<std::vector<T>> list_of(const Section<T>& section) {
           },
           Holds::list_of_sections,
           section.descriptions()};
+}
+
+/// A section that may be left out as a whole.
+template <class T>
+Codec<std::optional<T>> section_if_given(const Section<T>& section) {
+  Codec<std::optional<T>> codec = if_given(section_of(section));
+  codec.holds = Holds::section;
+  codec.children = section.descriptions();
+  return codec;
 }
 
 }  // namespace wavetank::scene

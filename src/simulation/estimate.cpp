@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "expected_waves.h"
 #include "simulation_parts.h"
 
 namespace wavetank {
@@ -75,6 +76,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   result.device_memory = static_cast<double>(solver.device_memory());
   result.size = size_of(parts.scene, parts.layout, parts.world);
   if (const std::optional<ThinWall> wall = solver.thinnest_wall()) result.thinnest_wall = wall->thickness;
+  result.waves = expected_waves(parts.scene, parts.layout, options.resolve);
   result.spacing = parts.layout.spacing;
   result.time_step = std::min(
       {parts.discretisation.acoustic_time, parts.discretisation.viscous_time, parts.coupling.longest_time_step(), parts.time_step});

@@ -89,6 +89,12 @@ double FlowLaw::at(double time) const { return checked(value_(time), time); }
 
 double FlowLaw::at(double time, const Vector3d& place) const { return checked(by_place_->at(time, place), time); }
 
+std::vector<bool> carrying(const OpeningCase& given, const Opening& opening) {
+  std::vector<bool> wet;
+  for (const Opening::Column& column : opening.columns) wet.push_back(given.kind == OpeningKind::inlet ? column.wet : true);
+  return wet;
+}
+
 std::vector<double> shape_of_profile(const OpeningCase& given, const Opening& opening) {
   std::vector<double> shape(opening.columns.size(), 1.0);
   if (given.profile == "uniform") return shape;
@@ -105,14 +111,20 @@ std::vector<double> shape_of_profile(const OpeningCase& given, const Opening& op
     return shape;
   }
   const Expression expression(given.profile);
+  const std::vector<bool> wet = carrying(given, opening);
   for (std::size_t c = 0; c < shape.size(); ++c) {
+    if (!wet[c]) {
+      shape[c] = 0;
+      continue;
+    }
     const Vector3d& place = opening.columns[c].place;
     shape[c] = expression.at(place);
     if (!std::isfinite(shape[c]) || shape[c] < 0)
       throw Error("opening '" + opening.name + "': its profile at (" + number(place.x()) + ", " + number(place.y()) + ", " +
                   number(place.z()) + ") m is " + number(shape[c]) + "; it must be finite and at least 0");
   }
-  if (*std::max_element(shape.begin(), shape.end()) <= 0) throw Error("opening '" + opening.name + "': its profile is 0 everywhere");
+  if (*std::max_element(shape.begin(), shape.end()) <= 0)
+    throw Error("opening '" + opening.name + "': its profile is 0 wherever water comes in");
   return shape;
 }
 
@@ -129,7 +141,7 @@ std::vector<double> profile_of(const Opening& opening, std::vector<double> shape
   return shape;
 }
 
-double FlowLaw::greatest(double duration, const Opening& opening) const {
+double FlowLaw::greatest(double duration, const Opening& opening, const std::vector<bool>& wet) const {
   if (greatest_recorded_) return *greatest_recorded_;
   constexpr int looks = 1000;
   double greatest = -std::numeric_limits<double>::infinity();
@@ -138,7 +150,8 @@ double FlowLaw::greatest(double duration, const Opening& opening) const {
     if (by_place_ == nullptr) {
       greatest = std::max(greatest, at(time));
     } else {
-      for (const Opening::Column& column : opening.columns) greatest = std::max(greatest, at(time, column.place));
+      for (std::size_t c = 0; c < wet.size(); ++c)
+        if (wet[c]) greatest = std::max(greatest, at(time, opening.columns[c].place));
     }
   }
   return greatest;
@@ -149,24 +162,44 @@ double fastest_by_head(const OpeningCase& given, const Opening& opening, const F
   const Top top = top_of(scene);
   double lowest = std::numeric_limits<double>::infinity();
   for (const Opening::Column& column : opening.columns) lowest = std::min(lowest, top.way * column.place[top.axis]);
-  const double head = top.way > 0 ? law.greatest(scene.duration, opening) : -law.at(0);
+  const double head = top.way > 0 ? law.greatest(scene.duration, opening, carrying(given, opening)) : -law.at(0);
   return std::sqrt(2 * std::abs(scene.gravity[top.axis]) * std::max(head - lowest, 0.0));
 }
 
-double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
-  std::vector<bool> wet;
+namespace {
+
+double area_of(const Opening& opening, const std::vector<bool>& wet) {
   double area = 0;
-  for (const Opening::Column& column : opening.columns) {
-    wet.push_back(given.kind == OpeningKind::inlet ? column.wet : true);
-    if (wet.back()) area += column.area;
-  }
-  if (!(area > 0)) return 0;
+  for (std::size_t c = 0; c < wet.size(); ++c)
+    if (wet[c]) area += opening.columns[c].area;
+  return area;
+}
+
+/// Of the fastest column over the mean.
+double peak_of(const OpeningCase& given, const Opening& opening, const std::vector<bool>& wet) {
   const std::vector<double> profile = profile_of(opening, shape_of_profile(given, opening), wet);
-  const double peak = *std::max_element(profile.begin(), profile.end());
-  if (given.command) return peak * given.command->greatest_discharge.value_or(0) / area;
-  if (!law.quantity() || law.quantity() == FlowQuantity::head) return 0;
-  const double greatest = law.greatest(duration, opening);
-  return peak * (law.quantity() == FlowQuantity::discharge ? greatest / area : greatest);
+  return *std::max_element(profile.begin(), profile.end());
+}
+
+}  // namespace
+
+double fastest_of_discharge(const OpeningCase& given, const Opening& opening, double discharge) {
+  const std::vector<bool> wet = carrying(given, opening);
+  const double area = area_of(opening, wet);
+  return area > 0 ? peak_of(given, opening, wet) * discharge / area : 0.0;
+}
+
+double greatest_discharge(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
+  if (given.command) return given.command->greatest_discharge.value_or(0);
+  if (law.quantity() != FlowQuantity::discharge) return 0;
+  return law.greatest(duration, opening, carrying(given, opening));
+}
+
+double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration) {
+  if (law.quantity() != FlowQuantity::velocity)
+    return fastest_of_discharge(given, opening, greatest_discharge(given, opening, law, duration));
+  const std::vector<bool> wet = carrying(given, opening);
+  return area_of(opening, wet) > 0 ? peak_of(given, opening, wet) * law.greatest(duration, opening, wet) : 0.0;
 }
 
 }  // namespace wavetank

@@ -24,9 +24,12 @@ class FlowLaw {
   /// Likewise, of a velocity that depends on the place, m.
   double at(double time, const Vector3d& place) const;
   bool depends_on_place() const { return by_place_ != nullptr; }
-  /// Of a record all of it, of an expression that at a thousand times from the start to `duration`, s, at the columns' places.
-  double greatest(double duration, const Opening& opening) const;
-  /// The same whatever it is; only where there is a quantity.
+  /// Of a record all of it, of an expression that at a thousand times from the start to `duration`, s, at the places of the columns that
+  /// carry water.
+  double greatest(double duration, const Opening& opening, const std::vector<bool>& wet) const;
+  /// Whether it is a function of time alone.
+  bool is_of_time() const { return static_cast<bool>(value_); }
+  /// The same whatever it is; only where it is one.
   double unchecked_at(double time) const { return value_(time); }
 
  private:
@@ -39,7 +42,10 @@ class FlowLaw {
   std::shared_ptr<Expression> by_place_;  ///< of a velocity
 };
 
-/// Of each column, of any scale. Throws Error for an expression that is negative or not finite in one of them, or 0 in all.
+/// Which columns may carry water: of an inlet those below its level.
+std::vector<bool> carrying(const OpeningCase& given, const Opening& opening);
+
+/// Of each column, of any scale. Throws Error for an expression that is negative or not finite in one that carries water, or 0 in all.
 std::vector<double> shape_of_profile(const OpeningCase& given, const Opening& opening);
 
 /// Velocities of the columns that carry water over their mean; `wet`: of each column.
@@ -47,6 +53,12 @@ std::vector<double> profile_of(const Opening& opening, std::vector<double> shape
 
 /// The greatest speed that a law, or the limit of a command, gives to any column from the start to `duration`, m/s.
 double fastest_flow(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration);
+
+/// The greatest discharge that a law, or the limit of a command, gives from the start to `duration`, m³/s (2-D: m²/s); 0 where it is free.
+double greatest_discharge(const OpeningCase& given, const Opening& opening, const FlowLaw& law, double duration);
+
+/// The speed that a discharge gives to the fastest of the columns that carry water, m/s.
+double fastest_of_discharge(const OpeningCase& given, const Opening& opening, double discharge);
 
 /// With which a head drives water into air at the opening's lowest place, m/s.
 double fastest_by_head(const OpeningCase& given, const Opening& opening, const FlowLaw& law, const Case& scene);

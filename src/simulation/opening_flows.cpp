@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "texts.h"
+#include "wavetank/common/error.h"
+#include "wavetank/common/log.h"
 
 namespace wavetank {
 namespace {
@@ -14,7 +16,8 @@ constexpr double least_filling = 0.45;    // of what walls leave of the kernel: 
 constexpr double drain_behind = 0.25;     // spacings behind the last row, where particles leave: none that comes in is so far back
 constexpr double past_the_back = 0.05;    // spacings behind the pocket's back, to where drains reach
 constexpr double fastest_of_sound = 0.1;  // of the speed of sound
-constexpr double slow_return = 20;        // fillings of an inlet's pocket, in which it makes good what it is behind
+constexpr double slow_return = 20;        // fillings of an inlet's pocket, in which it makes good what it is behind,
+constexpr double usual_of_sound = 0.05;   // at a speed of so much of the speed of sound
 
 /// Where a wall's motion has carried it.
 Opening moved(Opening opening, const WallMotion& wall, const Vector3d& reference) {
@@ -27,6 +30,15 @@ Opening moved(Opening opening, const WallMotion& wall, const Vector3d& reference
 }
 
 }  // namespace
+
+double fastest_at(std::size_t o, const std::vector<OpeningCase>& cases, const std::vector<Opening>& openings,
+                  const std::vector<FlowLaw>& laws, double duration) {
+  double returned = 0;
+  for (std::size_t by = 0; by < cases.size(); ++by)
+    if (cases[by].returns_to == cases[o].name) returned += greatest_discharge(cases[by], openings[by], laws[by], duration);
+  if (returned > 0) return fastest_of_discharge(cases[o], openings[o], returned);
+  return fastest_flow(cases[o], openings[o], laws[o], duration);
+}
 
 void WaterBefore::add(double time, Values values, double longest) {
   times_.push_back(time);
@@ -89,9 +101,12 @@ OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discre
       dimensions_(scene.dimensions),
       single_(scene.numerics.precision == Precision::single),
       up_(layout.up),
-      way_(top_of(scene).way) {
+      way_(top_of(scene).way),
+      room_(with_pockets(layout.domain, layout.openings, scene.dimensions)) {
+  room_.min.array() -= 0.25 * spacing_;  // the watchdog's box is larger by a little more
+  room_.max.array() += 0.25 * spacing_;
   for (std::size_t o = 0; o < openings_.size(); ++o) {
-    const double fastest = fastest_flow(cases_[o], openings_[o], laws_[o], scene.duration);
+    const double fastest = fastest_at(o, cases_, openings_, laws_, scene.duration);
     const double most = fastest_of_sound * sound_speed_;
     if (fastest > most * (1 + 1e-9))
       throw Error("opening '" + openings_[o].name + "': its water moves at up to " + number(fastest) +
@@ -122,6 +137,12 @@ void OpeningFlows::find_poses(const WallMotions& begin, const WallMotions& end) 
     poses_[o].reference = reference + begin.owners[owner].displacement;
     poses_[o].begin = moved(openings_[o], begin.owners[owner], reference);
     poses_[o].end = moved(openings_[o], end.owners[owner], reference);
+    const Vector3d back = -poses_[o].end.pocket * poses_[o].end.normal;
+    for (const Vector3d& corner : poses_[o].end.outline)
+      for (const Vector3d& place : {corner, Vector3d(corner + back)})
+        if (((place - room_.min).array() < 0).any() || ((place - room_.max).array() > 0).any())
+          throw Error("opening '" + openings_[o].name + "' is carried out of the tank: its pocket, " + number(openings_[o].pocket) +
+                      " m deep, reaches " + point(place) + " m; keep it within the tank's walls, and below the top of an open one");
   }
 }
 
@@ -207,7 +228,7 @@ void OpeningFlows::set_given_speeds(std::size_t o, double time, double value, bo
   const std::vector<double> profile = profile_of(openings_[o], shapes_[o], columns.wet);
   if (laws_[o].depends_on_place()) {
     for (std::size_t c = 0; c < profile.size(); ++c)
-      columns.speed[c] = sign * profile[c] * laws_[o].at(time, openings_[o].columns[c].place);
+      columns.speed[c] = columns.wet[c] ? sign * profile[c] * laws_[o].at(time, openings_[o].columns[c].place) : 0.0;
     return;
   }
   double area = 0;
@@ -260,20 +281,21 @@ double OpeningFlows::smooth_volume(std::size_t o) const {
 }
 
 /// What leaves at present, and slowly what has left before and is not back yet.
-double OpeningFlows::returned_discharge(std::size_t o) const {
-  double discharge = 0, behind = -smooth_volume(o), area = 0;
+double OpeningFlows::returned_discharge(std::size_t o) {
+  double discharge = 0, behind = -smooth_volume(o);
   for (const std::size_t by : returned_by_[o]) {
     discharge -= states_[by].discharge;
     behind -= smooth_volume(by);
   }
-  std::vector<bool> wet;
-  for (const Opening::Column& column : openings_[o].columns) {
-    wet.push_back(column.wet);
-    if (column.wet) area += column.area;
+  discharge += behind * usual_of_sound * sound_speed_ / (slow_return * openings_[o].pocket);
+  const double most = fastest_of_sound * sound_speed_ / fastest_of_discharge(cases_[o], openings_[o], 1.0);
+  if (discharge > most && !told_of_return_) {
+    told_of_return_ = true;
+    log(LogLevel::warning, "opening '" + openings_[o].name + "' is to bring back " + number(discharge) +
+                               (dimensions_ == 2 ? " m²/s" : " m³/s") + ", faster than a tenth of the speed of sound: it brings " +
+                               number(most) + " and the rest later; make it larger, or fluid/sound_speed");
   }
-  const std::vector<double> profile = profile_of(openings_[o], shapes_[o], wet);
-  const double most = fastest_of_sound * sound_speed_ * area / *std::max_element(profile.begin(), profile.end());
-  return std::clamp(discharge * (1 + behind / (slow_return * area * openings_[o].pocket)), 0.0, most);
+  return std::clamp(discharge, 0.0, most);
 }
 
 void OpeningFlows::apply_law(std::size_t o, double time, double value, Columns& columns) const {

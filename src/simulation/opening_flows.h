@@ -30,6 +30,10 @@ class WaterBefore {
   std::vector<Values> values_;
 };
 
+/// The greatest speed of the water beyond an opening by its law, or by those of outlets that return to it, m/s.
+double fastest_at(std::size_t opening, const std::vector<OpeningCase>& cases, const std::vector<Opening>& openings,
+                  const std::vector<FlowLaw>& laws, double duration);
+
 /// What passes the case's openings: which velocity and pressure the water beyond each has in a step, particles that come in there, and the
 /// account of what has come and gone.
 ///
@@ -97,7 +101,7 @@ class OpeningFlows {
   double law_at(std::size_t o, double time, double time_step);
   void set_given_speeds(std::size_t o, double time, double value, bool is_velocity, double sign, Columns& columns) const;
   /// m³/s, by an inlet, of what leaves at others.
-  double returned_discharge(std::size_t o) const;
+  double returned_discharge(std::size_t o);
   /// m³ that have come in, as if water did so smoothly and not by particles.
   double smooth_volume(std::size_t o) const;
   double commanded_discharge(std::size_t o, double time, double time_step);
@@ -117,12 +121,14 @@ class OpeningFlows {
   std::vector<std::vector<std::size_t>> returned_by_;  ///< of each opening those that return to it
   std::vector<std::size_t> in_order_;                  ///< those that others return to last
   bool any_moves_ = false;
+  bool told_of_return_ = false;
   std::vector<Pose> poses_;
   double spacing_, support_, density_, sound_speed_, gravity_;
   int dimensions_;
   bool single_;
   Vector3d up_;
-  int way_;  ///< of `up_` along its axis
+  int way_;   ///< of `up_` along its axis
+  Box room_;  ///< m, that openings which move must stay in
   std::shared_ptr<PointSet> points_;
   std::vector<Place> places_;
   std::vector<OpeningState> states_;

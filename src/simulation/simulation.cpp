@@ -5,8 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "expected_waves.h"
 #include "simulation_parts.h"
 #include "texts.h"
+#include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/rigid/prescribed_motion.h"
@@ -27,7 +29,7 @@ double fastest_wall(const Case& scene, const Layout& layout, const ResourceResol
     const Box box = mesh.bounding_box();
     double speed = 0;
     if (motion == Motion::prescribed) {
-      speed = PrescribedMotion(rigid.prescribed, reference, scene.dimensions, scene.directory, resolve, what)
+      speed = PrescribedMotion(rigid.prescribed, reference, scene.dimensions, scene.gravity.norm(), scene.directory, resolve, what)
                   .greatest_speed(box, scene.duration);
     } else if (motion == Motion::commanded) {
       speed = rigid.command.greatest_speed.value_or(0) + rigid.command.greatest_angular_speed.value_or(0) * reach_of(box, reference);
@@ -57,6 +59,22 @@ void tell_of_thin_walls(const Case& scene, const Discretisation& discretisation,
   log(LogLevel::info, whose + " is only " + number(wall->thickness) + " m thick at " + point(wall->place) +
                           " m, with fluid possible on both sides, less than the kernel's support of " + number(discretisation.support) +
                           " m: it is taken for a thin plate, through which the water on one side does not feel that on the other.");
+}
+
+/// A zone would hold a body, and the body the water, without a word about the force.
+void check_damping_zones(const Case& scene, const Layout& layout) {
+  for (std::size_t k = 0; k < scene.fluid.damping.size(); ++k) {
+    const Box& zone = scene.fluid.damping[k].box;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const Box body = layout.meshes[b + 1].bounding_box();
+      bool meets = true;
+      for (int axis = 0; axis < 3; ++axis)
+        if (scene.dimensions == 3 || axis != 1) meets = meets && body.min[axis] < zone.max[axis] && body.max[axis] > zone.min[axis];
+      if (meets)
+        throw Error("fluid/damping/" + std::to_string(k) + "/box lies over body '" + scene.bodies[b].name + "', from " + point(body.min) +
+                    " to " + point(body.max) + " m; a zone must not: move one of them");
+    }
+  }
 }
 
 void tell_of_noise(const Case& scene) {
@@ -89,7 +107,7 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
     : options(std::move(given)),
       layout(laid_out(checked)),
       laws(laws_of(checked)),
-      fastest(std::max(fastest_wall(checked, layout, options.resolve), fastest_inflow(checked))),
+      fastest(fastest_inflow(checked, fastest_wall(checked, layout, options.resolve))),
       scene(settled(checked, layout, fastest)),
       discretisation(discretise(scene, layout)),
       world(scene, layout, options.resolve),
@@ -105,7 +123,9 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
             for (const OpeningState& state : openings.states()) flows.push_back({state.discharge, state.volume});
             return flows;
           }) {
+  check_damping_zones(scene, layout);
   tell_of_noise(scene);
+  tell_of_waves(scene, layout, options.resolve);
   tell_of_shallow_water(layout);
   tell_of_thin_walls(scene, discretisation, *solver);
   solver->limit_time_step(coupling.longest_time_step());
@@ -128,13 +148,15 @@ std::vector<FlowLaw> Simulation::Parts::laws_of(const Case& checked) const {
   return result;
 }
 
-double Simulation::Parts::fastest_inflow(const Case& checked) const {
+double Simulation::Parts::fastest_inflow(const Case& checked, double fastest_wall) const {
   double fastest_of_all = 0;
   for (std::size_t o = 0; o < laws.size(); ++o)
-    fastest_of_all = std::max({fastest_of_all, fastest_flow(checked.openings[o], layout.openings[o], laws[o], checked.duration),
+    fastest_of_all = std::max({fastest_of_all,
+                               fastest_at(o, checked.openings, layout.openings, laws, checked.duration) +
+                                   (layout.moving[layout.openings[o].owner] ? fastest_wall : 0.0),
                                fastest_by_head(checked.openings[o], layout.openings[o], laws[o], checked)});
   if (fastest_of_all > 0) fastest_of_all = std::hypot(fastest_of_all, expected_speed(checked, layout));  // and falls on from there
-  return fastest_of_all;
+  return std::max(fastest_wall, fastest_of_all);
 }
 
 std::unique_ptr<Solver> Simulation::Parts::prepared_solver() {
@@ -156,6 +178,11 @@ std::vector<WallWrench> Simulation::Parts::wrenches(Solver& fluid) {
   for (std::size_t o = 0; o < wrenches.size(); ++o) {
     wrenches[o][0] += films.loads[o].force;
     wrenches[o][2] += films.loads[o].torque;
+  }
+  if (!scene.fluid.damping.empty()) {  // which the tank holds
+    const FluidEnergies energies = fluid.energies();
+    wrenches[0][0] += energies.zone_force;
+    wrenches[0][2] += energies.zone_moment - world.reference(0).cross(energies.zone_force);
   }
   return wrenches;
 }

@@ -23,8 +23,8 @@ struct Simulation::Parts {
 
   Layout laid_out(const Case& checked) const;
   std::vector<FlowLaw> laws_of(const Case& checked) const;
-  /// Of any opening from the start to the end, m/s.
-  double fastest_inflow(const Case& checked) const;
+  /// Of any opening or wall from the start to the end, m/s.
+  double fastest_inflow(const Case& checked, double fastest_wall) const;
   std::unique_ptr<Solver> prepared_solver();
   void progress(const char* what, double fraction) const;
   /// The fluid's, with those of films that particles do not resolve.

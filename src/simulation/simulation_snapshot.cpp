@@ -36,7 +36,7 @@ std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWo
     }
   }
   for (const FlowLaw& law : laws)
-    for (double time = 0; law.quantity() && time < end; time += interval) {
+    for (double time = 0; law.is_of_time() && time < end; time += interval) {
       const double value = law.unchecked_at(time);
       add(&value, 1);
     }

@@ -132,6 +132,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
   drains_.set(device, {}, discretisation_.origin);
+  damping_.set(device, case_, discretisation_.origin);
   if (owners_move) moving_walls_.emplace(device, walls_, moving_, centres_, layout, discretisation_);
   bind_kernels();
   set_wall_motions(at_start);
@@ -373,6 +374,11 @@ void SphSolver<Real>::find_shifts() {
 template <class Real>
 void SphSolver<Real>::impose_zones() {
   if (zones_.any()) kernels_.impose.launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::damp_velocities() {
+  kernels_.damp.launch(count_);
 }
 
 template <class Real>

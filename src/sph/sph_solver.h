@@ -8,6 +8,7 @@
 #include "bound_kernels.h"
 #include "build_options.h"
 #include "case_walls.h"
+#include "damping_zones.h"
 #include "drains.h"
 #include "guard_impulses.h"
 #include "integrators/integrator.h"
@@ -116,6 +117,7 @@ class SphSolver final : public Solver, private StepEngine {
   void sort() override;
   void find_shifts() override;
   void impose_zones() override;
+  void damp_velocities() override;
   void drift_to_middle() override;
   void kick_and_drift_to_end() override;
   void compress_to_end() override;
@@ -148,7 +150,7 @@ class SphSolver final : public Solver, private StepEngine {
     std::map<Slot, BoundSweep> continuity, momentum, rates, gradients, loads;
     BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end, impose,
-        hold_shifts;
+        hold_shifts, damp;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
   };
   /// Of the state's vectors, where their first components are.
@@ -170,6 +172,7 @@ class SphSolver final : public Solver, private StepEngine {
   NewParticles waiting_;  ///< to come in
   Drains<Real> drains_;
   Zones<Real> zones_;
+  DampingZones<Real> damping_;
   std::vector<double> masses_let_in_;  ///< kg, in the present step
   bool open_ = false;                  ///< particles may come or go
   Stride stride_ = 0;                  ///< at least that many particles have room

@@ -90,6 +90,9 @@ void SphSolver<Real>::bind_zones() {
   for (const Slot slot : {Slot::now, Slot::trial})
     kernels_.hold_rates[slot] = kernel("hold_zone_rates", arguments_of(slot).memory("rates", rates_));
   kernels_.hold_shifts = kernel("hold_zone_shifts", arguments().memory("state", state_));
+  compute::Arguments damped = arguments();
+  damping_.add_to(damped);
+  kernels_.damp = make_->exact("damping.cl", "damp_velocities", damped.memory("state", state_));
 }
 
 template <class Real>
@@ -102,7 +105,9 @@ void SphSolver<Real>::bind_reductions() {
   kernels_.watch_groups = kernel("watch_groups", watching);
   watching.memory("watches", std::as_const(group_watches_)).memory("alarms", std::as_const(group_alarms_)).value("chunks", groups_);
   kernels_.watch_total = kernel("watch_total", watching.value("longest", longest_step_).memory("report", report_));
-  kernels_.energy_chunks = kernel("energy_chunks", arguments().memory("energies", energy_parts_));
+  compute::Arguments energies = arguments();
+  damping_.add_to(energies);
+  kernels_.energy_chunks = kernel("energy_chunks", energies.memory("energies", energy_parts_));
   energy_sums_.bind(device_, *make_, arguments(), energy_parts_, field::energy_count);
   kernels_.packing_chunks = kernel("packing_chunks", arguments().memory("sums", packing_parts_));
   packing_sums_.bind(device_, *make_, arguments(), packing_parts_, 1);

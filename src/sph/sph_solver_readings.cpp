@@ -78,7 +78,9 @@ FluidEnergies SphSolver<Real>::energies() {
   kernels_.energy_chunks.launch(chunks_);
   energy_sums_.sum(chunks_);
   const std::vector<Real> total = energy_sums_.download();
-  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin, total[7]};
+  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin, total[7], {}, {}};
+  energies.zone_force = Eigen::Vector3d(total[8], total[9], total[10]);
+  energies.zone_moment = Eigen::Vector3d(total[11], total[12], total[13]) + discretisation_.origin.cross(energies.zone_force);
   if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
   // from the grid's origin to the tank's floor
   const Eigen::Vector3d up = upward(case_);

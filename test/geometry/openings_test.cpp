@@ -196,6 +196,18 @@ TEST_F(OpeningsTest, PocketsThatMeetWaterOrBodiesAreRefused) {
   EXPECT_ERROR(lay_out(inside), "opens into body 'block'");
 }
 
+TEST_F(OpeningsTest, PocketsOfBodiesStayInTheTank) {
+  Case scene = box_case(Vector3d(2, 0, 1), 0.6, 0.1);
+  scene.fluid.fill = {Box{Vector3d(0.5, 0, 0), Vector3d(2, 0, 0.6)}};
+  BodyCase piston;
+  piston.name = "piston";
+  piston.shape = Box{Vector3d(-0.8, 0, 0), Vector3d(0.2, 0, 0.9)};
+  scene.bodies = {piston};
+  scene.openings = {hole(Vector3d(0.2, 0, 0.3), Vector3d::UnitX(), 1, 0.4)};
+  scene.openings[0].body = "piston";
+  EXPECT_ERROR(lay_out(scene), "takes a pocket of 0.6 m behind it, which passes through a wall of the tank");
+}
+
 /// A box tank of 2 m × 1 m × 1 m as a file, whose wall at x = 0 has a part "port" of these corners (y, z), and whatever is left of it as
 /// another.
 class PartsTest : public GeometryTest {
@@ -208,7 +220,7 @@ class PartsTest : public GeometryTest {
     for (const double x : {0.0, 2.0})
       for (const double y : {-0.5, 0.5})
         for (const double z : {0.0, 1.0}) text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
-    for (const auto& [y, z] : port) text += "v " + std::to_string(bump) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    for (const auto& [y, z] : port) text += "v 0 " + std::to_string(y) + " " + std::to_string(z) + "\n";
     text += "f 1 5 7 3\nf 1 2 6 5\nf 3 7 8 4\nf 5 6 8 7\n";  // floor, sides, far end; the top is open
     // the wall about the port, as a fan from its corners: a quadrilateral between each side and the one of the wall that it faces
     const int wall[4] = {1, 3, 4, 2};
@@ -232,7 +244,6 @@ class PartsTest : public GeometryTest {
   }
 
   const Corners square{{-0.2, 0.2}, {0.2, 0.2}, {0.2, 0.6}, {-0.2, 0.6}};
-  double bump = 0;  ///< m, of the port out of the wall
 };
 
 TEST_F(PartsTest, ARectangleIsAsIfItWereGivenByItsSize) {
@@ -265,6 +276,51 @@ TEST_F(PartsTest, APolygonHasColumnsOfItsArea) {
   EXPECT_NEAR(opening.area, area, 1e-6);
   EXPECT_NEAR(wall_at(layout, 0, 0, 3), 1 - area, 1e-6);
   EXPECT_NEAR(wall_at(layout, 0, -0.5, 3), area, 1e-6);
+}
+
+// Outside of a body is the water, whichever way its faces are wound in the file; and a part may have its own direction up.
+TEST_F(PartsTest, OfABodyFacesOutwards) {
+  const auto box_with_port = [](bool inside_out) {
+    std::string text;
+    for (const double x : {0.4, 1.2})
+      for (const double y : {-0.3, 0.3})
+        for (const double z : {0.5, 1.0}) text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    for (const auto& [y, z] : Corners{{-0.15, 0.6}, {0.15, 0.6}, {0.15, 0.9}, {-0.15, 0.9}})
+      text += "v 1.2 " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    const std::vector<std::array<int, 4>> faces{{1, 2, 4, 3},  {1, 5, 6, 2},   {3, 4, 8, 7},   {1, 3, 7, 5},  {2, 6, 8, 4},
+                                                {5, 7, 10, 9}, {7, 8, 11, 10}, {8, 6, 12, 11}, {6, 5, 9, 12}, {9, 10, 11, 12}};
+    text += "o hull\n";
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      auto [a, b, c, d] = faces[f];
+      if (inside_out) std::swap(b, d);
+      if (f + 1 == faces.size()) text += "o port\n";
+      text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + " " + std::to_string(d) + "\n";
+    }
+    return text;
+  };
+  for (const bool inside_out : {false, true}) {
+    Case scene = box_case(Vector3d(3, 1, 1.5), 0.3, 0.1);
+    BodyCase nozzle;
+    nozzle.name = "nozzle";
+    MeshSource mesh = source(write(inside_out ? "out.obj" : "in.obj", box_with_port(inside_out)));
+    mesh.translation = Vector3d(0, 0.5, 0);
+    nozzle.shape = mesh;
+    scene.bodies = {nozzle};
+    OpeningCase opening;
+    opening.name = "hole";
+    opening.body = "nozzle";
+    opening.velocity = "1";
+    opening.part = "port";
+    opening.up = Vector3d::UnitY();
+    scene.openings = {opening};
+    const Opening found = lay_out(scene).openings[0];
+    EXPECT_LT((found.normal - Vector3d::UnitX()).norm(), 1e-9) << inside_out;
+    EXPECT_LT((found.up - Vector3d::UnitY()).norm(), 1e-9);
+    EXPECT_LT((found.centre - Vector3d(1.2, 0.5, 0.75)).norm(), 1e-6);
+    EXPECT_NEAR(found.area, 0.09, 1e-6);
+    scene.openings[0].up = Vector3d::UnitX();
+    EXPECT_ERROR(lay_out(scene), "faces along up, which must be a direction within it");
+  }
 }
 
 TEST_F(PartsTest, ThatCannotBeAreRefused) {

@@ -15,7 +15,7 @@ class MotionRecordTest : public GeometryTest {
   PrescribedMotion motion(int dimensions = 3, const ResourceResolver& resolve = {}) const {
     PrescribedCase prescribed;
     prescribed.records = {record};
-    return PrescribedMotion(prescribed, Vector3d::Zero(), dimensions, directory.string(), resolve, "tank");
+    return PrescribedMotion(prescribed, Vector3d::Zero(), dimensions, 9.81, directory.string(), resolve, "tank");
   }
   double surge(double time) const { return motion().at(time).position.x(); }
   void follow(const std::string& text) { record.file = write("motion.csv", text); }

@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 const Vector3d reference(0.3, -0.2, 0.5);
 
 PrescribedMotion motion(const PrescribedCase& prescribed, int dimensions = 3, const Vector3d& about = reference) {
-  return PrescribedMotion(prescribed, about, dimensions, "", {}, "body 'flap'");
+  return PrescribedMotion(prescribed, about, dimensions, 9.81, "", {}, "body 'flap'");
 }
 
 /// Central difference of the fourth order.

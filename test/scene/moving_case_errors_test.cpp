@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
               "friction: 0.2",
               "motion: prescribed\n    prescribed: {axis: [1, 0, 0]}",
               {"case.yaml:29: bodies/2/motion is prescribed, but nothing prescribes it",
-               "give bodies/2/prescribed at least one of harmonics, ramps and records"}},
+               "give bodies/2/prescribed at least one of harmonics, ramps, records and waves"}},
         Fault{"CommandOfAFixedBody",
               "motion: commanded",
               "motion: fixed",

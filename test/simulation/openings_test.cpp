@@ -440,5 +440,66 @@ TEST_F(Openings, HaveTheProfileOfAnExpression) {
             std::string::npos);
 }
 
+// A snapshot knows a law of time and place, which is in the case's text.
+TEST_F(Openings, OfALawByPlaceRepeatFromASnapshot) {
+  const Case scene = channel("(0.4 + 0.1*sin(9*t))*(z < 0.2 ? 1 : 0.5)");
+  Simulation first(scene), second(scene);
+  run_steps(first, 80);
+  first.save(path("middle"));
+  run_steps(first, 80);
+  second.restore(path("middle"));
+  run_steps(second, 80);
+  EXPECT_EQ(snapshot(first), snapshot(second));
+}
+
+// A thin film falls through a hole in the floor by columns that are all but dry: what leaves there comes back all the same.
+TEST_F(Openings, BringBackWhatFellThroughAHole) {
+  Case scene = box_case(Vector3d(1.2, 0, 0.8), 0.04, 0.02);
+  scene.fluid.fill.clear();
+  scene.fluid.sound_speed = 40;
+  scene.duration = 3;
+  OpeningCase tap = opening("tap", OpeningKind::inlet, Vector3d(0, 0, 0.5), Vector3d::UnitX(), 0.06);
+  OpeningCase hole = opening("hole", OpeningKind::outlet, Vector3d(0.8, 0, 0), Vector3d::UnitZ(), 0.6);
+  hole.up = Vector3d::UnitX();
+  hole.returns_to = "tap";
+  OpeningCase hose = opening("hose", OpeningKind::inlet, Vector3d(0, 0, 0.3), Vector3d::UnitX(), 0.06);
+  hose.discharge = "t < 0.6 ? 0.06 : 0";
+  scene.openings = {tap, hole, hose};
+  Simulation simulation(scene);
+  run_to(simulation, 3);
+  const OpeningState &in = simulation.openings()[0], &out = simulation.openings()[1];
+  EXPECT_GT(out.mass_out, 15);
+  // the rest is on its way: in the inlet's slowness, 1.7 s or so, and in the air
+  EXPECT_GT(in.mass_in, 0.5 * out.mass_out);
+  EXPECT_LE(in.mass_in, out.mass_out);
+}
+
+TEST_F(Openings, HaveAProfileWhereWaterComesIn) {
+  Case scene = channel("0.4");
+  scene.openings[0].profile = "z*(0.4 - z)";  // negative above the level, where nothing comes in
+  Simulation simulation(scene);
+  run_steps(simulation, 5);
+  EXPECT_NEAR(simulation.openings()[0].discharge, 0.4 * depth, 1e-6);
+  scene.openings[0].profile = "max(z - 0.4, 0)";
+  EXPECT_NE(error_of([&] { Simulation again(scene); }).find("its profile is 0 wherever water comes in"), std::string::npos);
+}
+
+TEST_F(Openings, CarriedOutOfTheTankEndTheRun) {
+  Case scene = swinging_nozzle("0.5");
+  scene.bodies[0].rigid.prescribed.harmonics = {{Direction::surge, -0.8, 0.5, 0.0, 0.1}};
+  Simulation simulation(scene);
+  const std::string message = error_of([&] { run_to(simulation, 1); });
+  EXPECT_NE(message.find("opening 'nozzle' is carried out of the tank"), std::string::npos) << message;
+}
+
+TEST_F(Openings, ThatReturnTooMuchAreRefused) {
+  Case scene = channel("");
+  scene.fluid.sound_speed = 28;
+  scene.openings[1].level.reset();
+  scene.openings[1].discharge = "2";
+  scene.openings[1].returns_to = "start";
+  EXPECT_NE(error_of([&] { Simulation simulation(scene); }).find("opening 'start': its water moves at up to 5 m/s"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace wavetank

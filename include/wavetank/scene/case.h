@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -43,6 +44,14 @@ struct InitialCase {
   std::string pressure;  ///< Pa
 };
 
+/// A box in which the water's velocity is damped, so that waves do not come back from behind it.
+struct DampingCase {
+  Box box;                                 ///< m
+  Vector3d direction = Vector3d::UnitX();  ///< along which the damping grows; any length but 0
+  double strength = 0;                     ///< 1/s, at the box's far side; with the square of the way there
+  Vector3d velocity = Vector3d::Zero();    ///< m/s, towards which
+};
+
 struct FluidCase {
   double density = 1000.0;               ///< kg/m³
   double viscosity = 1.0e-3;             ///< Pa·s, dynamic
@@ -52,6 +61,7 @@ struct FluidCase {
   std::vector<FillRegion> fill;          ///< at least one where there are no openings
   InitialCase initial;
   Vector3d current = Vector3d::Zero();  ///< m/s, of all water at the start, beside what `initial` says
+  std::vector<DampingCase> damping;
 };
 
 /// A parametric rectangular tank.
@@ -101,12 +111,59 @@ struct RecordCase {
   double delay = 0;                    ///< s, added to the file's times
 };
 
+enum class WaveKind {
+  regular,
+  irregular,  ///< a sea of a spectrum
+  focused,    ///< whose crests meet at one place and time
+  solitary,
+  record  ///< of a surface's elevation
+};
+enum class WaveSpectrum { jonswap, pierson_moskowitz };
+
+/// Where and when the crests of a focused wave meet.
+struct WaveFocusCase {
+  double distance = 0;  ///< m, from the paddle at rest
+  double time = 0;      ///< s
+};
+
+/// A column of elevations in a file of comma-separated values with one header line, of which the waves are the Fourier sum.
+struct WaveRecordCase {
+  std::string file;                  ///< package://, file://, absolute, or relative to the case file
+  std::string time_column = "time";  ///< s, increasing
+  std::string column = "elevation";
+  double factor = 1;    ///< m per unit of the column
+  double delay = 0;     ///< s, added to the file's times
+  double distance = 0;  ///< m, from the paddle at rest to where it is to be seen
+};
+
+/// Waves by theory, that a prescribed body makes as a piston (surge, sway, stroke) or a flap (pitch, angle).
+struct WaveCase {
+  WaveKind kind = WaveKind::regular;
+  Direction direction = Direction::surge;
+  bool reversed = false;  ///< the waves go against the direction
+  double depth = 0;       ///< m, of still water before the paddle, over a level floor
+  double hinge = 0;       ///< m over the floor, that a flap turns about
+  double height = 0;      ///< m, from trough to crest; of a focused or solitary one the crest's over the still level
+  double period = 0;      ///< s, of regular ones
+  int order = 1;          ///< of the paddle's motion
+  WaveSpectrum spectrum = WaveSpectrum::jonswap;  ///< of irregular and focused ones
+  double significant_height = 0;                  ///< m, four standard deviations of the surface
+  double peak_period = 0;                         ///< s, of the spectrum's peak
+  double peak_enhancement = 3.3;                  ///< γ of jonswap
+  int components = 200;
+  int seed = 1;
+  WaveFocusCase focus;
+  WaveRecordCase record;
+  std::optional<double> rise;  ///< s, from rest to the full motion; none = one period, or peak period
+};
+
 struct PrescribedCase {
   std::optional<Vector3d> point;        ///< m, that rotations are about; none = centre of mass, for the tank the case's origin
   Vector3d axis{0.0, 1.0, 0.0};         ///< of stroke and angle; any length but 0
   std::vector<HarmonicCase> harmonics;  ///< all of these are added up, direction by direction
   std::vector<RampCase> ramps;
   std::vector<RecordCase> records;
+  std::optional<WaveCase> waves;
 };
 
 /// Limits on a commanded motion; none = as it is commanded.

@@ -12,6 +12,7 @@
 #include "wavetank/geometry/layout.h"
 #include "wavetank/instruments/samples.h"
 #include "wavetank/rigid/rigid_world.h"
+#include "wavetank/rigid/wave_theory.h"
 #include "wavetank/scene/case.h"
 #include "wavetank/simulation/case_size.h"
 #include "wavetank/sph/pair_count.h"
@@ -74,6 +75,7 @@ struct Estimate {
   std::size_t lid_elements = 0;
   CaseSize size;
   std::optional<double> thinnest_wall;  ///< m, of the walls thinner than the support with fluid on both sides; none = there are none
+  std::vector<ExpectedWaves> waves;     ///< of paddles that make them by theory
   double spacing = 0;                   ///< m
   double device_memory = 0;             ///< bytes
   double time_step = 0;                 ///< s, at rest

@@ -86,6 +86,8 @@ struct FluidEnergies {
   double mass = 0;                                        ///< kg (2-D: kg/m)
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
   double damper_power = 0;                                ///< W (2-D: W/m), that the acoustic damper takes of sound
+  Eigen::Vector3d zone_force = Eigen::Vector3d::Zero();   ///< N (2-D: N/m), of the water on damping zones
+  Eigen::Vector3d zone_moment = Eigen::Vector3d::Zero();  ///< N·m (2-D: N), its moment about the case's origin
 };
 
 /// Pressure force, viscous force (N), pressure torque, viscous torque (N·m) of the fluid on one owner of walls; about the owner's centre.

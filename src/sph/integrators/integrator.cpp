@@ -41,6 +41,9 @@ Schedule schedule_of(const Case& scene, StepEngine* engine) {
   if (!scene.openings.empty())
     schedule.begin_with({"water behind openings", state_of("now"), at("now", {"velocity", "compression", "pressure", "volume"}),
                          [engine] { engine->impose_zones(); }});
+  if (!scene.fluid.damping.empty())
+    schedule.begin_with(
+        {"damping zones", at("now", {"position", "velocity"}), at("now", {"velocity"}), [engine] { engine->damp_velocities(); }});
   return schedule;
 }
 

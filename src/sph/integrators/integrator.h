@@ -33,6 +33,8 @@ class StepEngine {
   virtual void find_shifts() = 0;
   /// The water behind openings gets the velocity and pressure that it is given.
   virtual void impose_zones() = 0;
+  /// Velocities in damping zones go towards those that they are given.
+  virtual void damp_velocities() = 0;
 
   // of the symplectic scheme
   virtual void drift_to_middle() = 0;

@@ -2,6 +2,7 @@
 // the last ones' results by one. Built without fast-math, and non-finite values are found by their bits all the same.
 #include "common.cl"
 #include "equation_of_state.cl"
+#include "damping_rate.cl"
 
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
 typedef struct {
@@ -108,6 +109,8 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
 #define ENERGY_MASS 3
 #define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
 #define ENERGY_DAMPER 7       // a second, that the acoustic damper takes
+#define ENERGY_ZONE_FORCE 8   // N, that damping zones take
+#define ENERGY_ZONE_MOMENT 11 // and its moment about the grid's origin
 
 // Water whose tension is taken away stores none.
 INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }
@@ -140,7 +143,7 @@ __kernel void sum_rows(int rows, int columns, __global const real* from, __globa
 }
 
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const real* rates,
-                            __global real* energies) {
+                            int damping_count, __global const real* dampings, __global real* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
@@ -160,6 +163,19 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
     const real rate = rates[RATE_COMPRESSION * stride + i];
     add_compensated(state[FIELD_VOLUME * stride + i] * rate * damper_pressure(p, s, rate), &sums[ENERGY_DAMPER], &rests[ENERGY_DAMPER]);
 #endif
+    for (int k = 0; k < damping_count; ++k) {
+      __global const real* zone = dampings + k * DAMPING_COUNT;
+      const real rate = mass * damping_rate(zone, state, stride, i);
+      if (rate == R(0.0)) continue;
+      real force[3];
+      for (int axis = 0; axis < 3; ++axis) force[axis] = rate * (state[(FIELD_U + axis) * stride + i] - zone[DAMPING_VELOCITY + axis]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        const real moment = state[(FIELD_X + next) * stride + i] * force[last] - state[(FIELD_X + last) * stride + i] * force[next];
+        add_compensated(force[axis], &sums[ENERGY_ZONE_FORCE + axis], &rests[ENERGY_ZONE_FORCE + axis]);
+        add_compensated(moment, &sums[ENERGY_ZONE_MOMENT + axis], &rests[ENERGY_ZONE_MOMENT + axis]);
+      }
+    }
   }
   for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
 }

@@ -92,7 +92,13 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(zone_heading, 31, "of the speed") \
   ROW(zone_count, 34, "values of a zone") \
   ROW(zone_cell_count, 4, "values of a cell: speed along the heading, pressure, compression, 1 if it is of the zone") \
-  ROW(energy_count, 8, "kinetic, potential, of compression, mass, three moments of mass, and the acoustic damper's power") \
+  ROW(damping_lower, 0, "m: of a damping zone, x, y, z") \
+  ROW(damping_upper, 3, "likewise") \
+  ROW(damping_slope, 6, "1/m, and where it begins: from 0 to 1 along the zone") \
+  ROW(damping_strength, 10, "1/s, at its end") \
+  ROW(damping_velocity, 11, "m/s, towards which") \
+  ROW(damping_count, 14, "values of a damping zone") \
+  ROW(energy_count, 14, "kinetic, potential, of compression, mass, three moments of mass, the acoustic damper's power, force and moment on damping zones") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")
 // clang-format on

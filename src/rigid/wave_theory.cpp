@@ -1,0 +1,185 @@
+#include "wavetank/rigid/wave_theory.h"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <random>
+#include <tuple>
+#include <unsupported/Eigen/FFT>
+
+#include "number_text.h"
+#include "wave_maker.h"
+#include "wavetank/common/error.h"
+#include "wavetank/common/record_file.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double lowest_frequency = 0.5, highest_frequency = 3.0;  // of a spectrum's peak: 0.2 % of the energy lie beyond
+constexpr double least_share = 1e-3;                               // of the greatest amplitude: less of a record's is left out
+
+/// In [0, 1), of the generator's own bits: what distributions make of them is each library's choice.
+double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+
+std::vector<WaveComponent> spectral_components(const WaveCase& wave) {
+  const double peak = 1.0 / wave.peak_period, enhancement = wave.spectrum == WaveSpectrum::jonswap ? wave.peak_enhancement : 1.0;
+  const double width = (highest_frequency - lowest_frequency) * peak / wave.components;
+  const bool focused = wave.kind == WaveKind::focused;
+  std::mt19937_64 generator(static_cast<std::uint64_t>(wave.seed));
+  std::vector<WaveComponent> components;
+  double sum = 0;
+  for (int i = 0; i < wave.components; ++i) {
+    // somewhere in its band, so that the sea does not repeat itself after 1/Δf
+    const double within = focused ? 0.5 : uniform(generator);
+    const double frequency = lowest_frequency * peak + (i + within) * width, energy = jonswap_shape(frequency, peak, enhancement);
+    WaveComponent component;
+    component.amplitude = focused ? energy : std::sqrt(energy);
+    component.angular_frequency = 2.0 * M_PI * frequency;
+    component.phase = focused ? 0.0 : 2.0 * M_PI * uniform(generator);
+    sum += focused ? component.amplitude : 0.5 * component.amplitude * component.amplitude;
+    components.push_back(component);
+  }
+  // a focused wave's crest is the sum of the amplitudes; the significant height is four times the root of the variance
+  const double scale = focused ? wave.height / sum : 0.25 * wave.significant_height / std::sqrt(sum);
+  for (WaveComponent& component : components) component.amplitude *= scale;
+  return components;
+}
+
+/// So that all crests meet at the distance and the time.
+void focus(const WaveCase& wave, double gravity, std::vector<WaveComponent>& components) {
+  for (WaveComponent& component : components) {
+    const double k = wave_number(component.angular_frequency, wave.depth, gravity);
+    component.phase = k * wave.focus.distance - component.angular_frequency * wave.focus.time;
+  }
+}
+
+/// The discrete Fourier transform of the record's straight lines between its lines, about their mean.
+std::vector<WaveComponent> recorded_components(const WaveCase& wave, double gravity, const std::string& path, const std::string& what) {
+  const RecordFile file(path, what, "wave");
+  const std::vector<double> times = file.times(wave.record.time_column);
+  const std::vector<double> values = file.numbers(wave.record.column);
+  const double duration = times.back() - times.front();
+  const std::size_t count = times.size();
+  std::vector<double> even(count);
+  std::size_t k = 1;
+  double mean = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = times.front() + duration * static_cast<double>(i) / static_cast<double>(count);
+    while (times[k] < time) ++k;
+    const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
+    even[i] = wave.record.factor * (values[k - 1] + share * (values[k] - values[k - 1]));
+    mean += even[i] / static_cast<double>(count);
+  }
+  for (double& value : even) value -= mean;
+  std::vector<std::complex<double>> transform;
+  Eigen::FFT<double>().fwd(transform, even);
+  std::vector<WaveComponent> all;
+  double greatest = 0;
+  for (std::size_t n = 1; n <= (count - 1) / 2; ++n) {
+    const double in_phase = 2.0 * transform[n].real() / static_cast<double>(count),
+                 quadrature = -2.0 * transform[n].imag() / static_cast<double>(count);
+    WaveComponent component;
+    component.amplitude = std::hypot(in_phase, quadrature);
+    component.angular_frequency = 2.0 * M_PI * static_cast<double>(n) / duration;
+    // of what was seen at a distance and from another time on
+    component.phase = std::atan2(-quadrature, in_phase) - component.angular_frequency * (times.front() + wave.record.delay) +
+                      wave_number(component.angular_frequency, wave.depth, gravity) * wave.record.distance;
+    greatest = std::max(greatest, component.amplitude);
+    all.push_back(component);
+  }
+  if (!(greatest > 0)) throw Error(file.place(0) + ": the surface does not move in it");
+  std::vector<WaveComponent> components;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(components),
+               [&](const WaveComponent& component) { return component.amplitude >= least_share * greatest; });
+  return components;
+}
+
+std::string breaking_of(double height, double depth, double k) {
+  const double miche = 0.142 * 2.0 * M_PI / k * std::tanh(k * depth), mccowan = 0.78 * depth;
+  if (height > mccowan) return "higher than McCowan's 0.78 of the depth, " + number_text(mccowan) + " m";
+  if (height > miche) return "higher than Miche's 0.142 L tanh kd, " + number_text(miche) + " m";
+  return "";
+}
+
+}  // namespace
+
+double wave_number(double angular_frequency, double depth, double gravity) {
+  const double deep = angular_frequency * angular_frequency * depth / gravity;  // kd of deep water
+  const auto excess = [deep](double kd) {
+    const double tanh = std::tanh(kd);
+    return std::make_tuple(kd * tanh - deep, tanh + kd * (1.0 - tanh * tanh));
+  };
+  // between deep and shallow water, both of which are too small for the other
+  const double least = std::max(deep, std::sqrt(deep)) * (1 - 1e-12), most = least + 1.0;
+  std::uintmax_t iterations = 60;
+  return boost::math::tools::newton_raphson_iterate(excess, least, 0.0, most, 52, iterations) / depth;
+}
+
+double wave_over_stroke(double wave_number, double depth, const std::optional<double>& hinge) {
+  const double kd = wave_number * depth;
+  double paddle = std::sinh(kd);  // ∫ k f cosh ks ds over the depth, of the paddle's displacement f, 1 at the still level
+  if (hinge) paddle -= (std::cosh(kd) - std::cosh(wave_number * std::max(*hinge, 0.0))) / (wave_number * (depth - *hinge));
+  return 4.0 * std::sinh(kd) * paddle / (std::sinh(2.0 * kd) + 2.0 * kd);
+}
+
+double jonswap_shape(double frequency, double peak_frequency, double peak_enhancement) {
+  const double ratio = frequency / peak_frequency, width = ratio <= 1 ? 0.07 : 0.09;
+  const double peak = std::exp(-0.5 * std::pow((ratio - 1.0) / width, 2));
+  return std::pow(ratio, -5) * std::exp(-1.25 * std::pow(ratio, -4)) * std::pow(peak_enhancement, peak);
+}
+
+std::vector<WaveComponent> wave_components(const WaveCase& wave, double gravity, const std::string& record_path, const std::string& what) {
+  std::vector<WaveComponent> components;
+  if (wave.kind == WaveKind::regular) components = {{0.5 * wave.height, 2.0 * M_PI / wave.period, 0.0}};
+  if (wave.kind == WaveKind::irregular || wave.kind == WaveKind::focused) components = spectral_components(wave);
+  if (wave.kind == WaveKind::focused) focus(wave, gravity, components);
+  if (wave.kind == WaveKind::record) components = recorded_components(wave, gravity, record_path, what);
+  return components;
+}
+
+WaveFacts wave_facts(const WaveCase& wave, double gravity, const std::string& record_path, const std::string& what) {
+  WaveFacts facts;
+  facts.height = wave.kind == WaveKind::irregular ? wave.significant_height : wave.height;
+  facts.period = wave.kind == WaveKind::regular ? wave.period : wave.peak_period;
+  if (wave.kind == WaveKind::solitary) {
+    const SolitaryWave solitary(wave.height, wave.depth, gravity);
+    facts.period = 0;
+    facts.celerity = solitary.celerity();
+    facts.wavelength = 2.0 * std::acosh(10.0) / solitary.outskirts();
+    facts.stroke = solitary.stroke();
+    facts.regime = "shallow";
+    if (wave.height > 0.78 * wave.depth) facts.breaking = breaking_of(wave.height, wave.depth, solitary.outskirts());
+  } else {
+    const std::vector<WaveComponent> components = wave_components(wave, gravity, record_path, what);
+    double variance = 0, strokes = 0;
+    const WaveComponent* greatest = &components.front();
+    const std::optional<double> hinge = is_flap(wave) ? std::optional<double>(wave.hinge) : std::nullopt;
+    for (const WaveComponent& component : components) {
+      variance += 0.5 * component.amplitude * component.amplitude;
+      if (component.amplitude > greatest->amplitude) greatest = &component;
+      const double stroke =
+          component.amplitude / wave_over_stroke(wave_number(component.angular_frequency, wave.depth, gravity), wave.depth, hinge);
+      strokes += wave.kind == WaveKind::focused ? stroke : stroke * stroke;
+    }
+    if (wave.kind == WaveKind::record) {
+      facts.height = 4.0 * std::sqrt(variance);
+      facts.period = 2.0 * M_PI / greatest->angular_frequency;
+    }
+    // of a sea that which it is significantly: twice the root of the sum of squares is 4 standard deviations over √2
+    facts.stroke = wave.kind == WaveKind::regular   ? 2.0 * std::sqrt(strokes)
+                   : wave.kind == WaveKind::focused ? 2.0 * strokes
+                                                    : 4.0 * std::sqrt(0.5 * strokes);
+    const double k = wave_number(2.0 * M_PI / facts.period, wave.depth, gravity), kd = k * wave.depth;
+    facts.wavelength = 2.0 * M_PI / k;
+    facts.celerity = facts.wavelength / facts.period;
+    facts.regime = kd < M_PI / 10 ? "shallow" : kd > M_PI ? "deep" : "intermediate";
+    facts.breaking = breaking_of(facts.height, wave.depth, k);
+  }
+  facts.ursell = facts.height * facts.wavelength * facts.wavelength / std::pow(wave.depth, 3);
+  facts.steepness = facts.height / facts.wavelength;
+  return facts;
+}
+
+}  // namespace wavetank

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "section.h"
+#include "wavetank/scene/case.h"
+
+namespace wavetank::scene {
+
+/// The keys of waves that a prescribed body makes.
+Section<WaveCase> wave_section();
+
+}  // namespace wavetank::scene

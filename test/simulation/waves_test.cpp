@@ -1,0 +1,133 @@
+// Paddles that make waves by theory, and zones that take them away.
+#include "simulation_fixture.h"
+#include "wavetank/common/log.h"
+
+namespace wavetank {
+namespace {
+
+constexpr double depth = 0.4;
+
+/// A flume with a piston at its left end.
+Case flume(double length, double spacing) {
+  Case scene = box_case(Vector3d(length, 0, 0.6), depth, spacing);
+  scene.fluid.fill = {Box{Vector3d(0.2, 0, 0), Vector3d(length, 0, depth)}};
+  scene.numerics.artificial_viscosity = 0.005;
+  scene.numerics.walls.slip = Slip::free_slip;
+  BodyCase piston;
+  piston.name = "piston";
+  piston.shape = Box{Vector3d(0.1, 0, 0), Vector3d(0.2, 0, 0.6)};
+  piston.motion = Motion::prescribed;
+  WaveCase wave;
+  wave.depth = depth;
+  wave.height = 0.1;
+  wave.period = 1.2;
+  piston.rigid.prescribed.waves = wave;
+  scene.bodies = {piston};
+  scene.duration = 10;
+  return scene;
+}
+
+DampingCase zone(double from, double to, double strength) {
+  DampingCase damping;
+  damping.box = Box{Vector3d(from, 0, 0), Vector3d(to, 0, 1)};
+  damping.strength = strength;
+  return damping;
+}
+
+using Waves = SimulationTest;
+
+// Coarse: eight tenths of the height are to be there, whole wavelengths apart, and none where the zone ends.
+TEST_F(Waves, ComeAsHighAndAsOftenAsTheoryHasIt) {
+  Case scene = flume(6, 0.025);
+  scene.fluid.damping = {zone(3.6, 6, 8)};
+  scene.instruments.wave_gauges = {{"near", Vector3d(1.2, 0, 0)}, {"far", Vector3d(3.2, 0, 0)}, {"end", Vector3d(5.9, 0, 0)}};
+  scene.instruments.rate = 50;
+  Simulation simulation(scene);
+  const Samples samples = run_to(simulation, 7.2);
+  double low[3] = {1, 1, 1}, high[3] = {};
+  std::vector<double> crossings;  // of the still level upwards, at the first gauge
+  for (std::size_t k = 1; k < samples.levels.size(); ++k) {
+    if (samples.levels[k].time < 3.6) continue;
+    for (int g = 0; g < 3; ++g) {
+      low[g] = std::min(low[g], samples.levels[k].levels[g]);
+      high[g] = std::max(high[g], samples.levels[k].levels[g]);
+    }
+    const double before = samples.levels[k - 1].levels[0] - depth, after = samples.levels[k].levels[0] - depth;
+    if (before < 0 && after >= 0) crossings.push_back(samples.levels[k - 1].time - before / (after - before) * 0.02);
+  }
+  for (int g = 0; g < 3; ++g) std::printf("gauge %d: %.4f m high\n", g, high[g] - low[g]);
+  EXPECT_NEAR(high[0] - low[0], 0.1, 0.025);  // the gauge reads to half a spacing
+  EXPECT_LT(high[2] - low[2], 0.3 * (high[0] - low[0]));
+  ASSERT_GE(crossings.size(), 2u);
+  EXPECT_NEAR((crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1), 1.2, 0.04);
+}
+
+// A current beside itself in a zone decays as the zone's rate has it, and what it loses is on the tank.
+TEST_F(Waves, ZonesTakeTheVelocityAndTellTheForce) {
+  Case scene = box_case(Vector3d(1.6, 0, 0.4), 0.2, 0.04);
+  scene.gravity = Vector3d::Zero();
+  std::get<BoxTank>(scene.tank.shape).closed = true;
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1.6, 0, 0.4)}};
+  scene.fluid.sound_speed = 10;
+  scene.fluid.viscosity = 0;
+  scene.tank.periodic[0] = true;
+  scene.numerics.walls.slip = Slip::free_slip;
+  scene.numerics.artificial_viscosity = 0;
+  scene.numerics.acoustic_damping = 0;
+  scene.numerics.packing.iterations = 0;
+  scene.fluid.current = Vector3d(0.5, 0, 0);
+  scene.instruments.rate = 200;
+  // as good as even: of a zone that begins a hundred metres off, the rate here is 3/s
+  DampingCase damping = zone(-100, 1.7, 3);
+  damping.velocity = Vector3d(0.1, 0, 0);
+  scene.fluid.damping = {damping};
+  Simulation simulation(scene);
+  const Samples samples = run_to(simulation, 0.5);
+  const ParticleCloud cloud = simulation.particles();
+  const double time = simulation.state().time, expected = 0.1 + 0.4 * std::exp(-3 * time);
+  for (std::size_t i = 0; i < cloud.id.size(); ++i) ASSERT_NEAR(cloud.velocity[i].x(), expected, 0.02 * 0.4);
+  const double mass = simulation.energies().mass;
+  const WrenchSample& last = samples.wrenches.back();
+  EXPECT_NEAR(last.wrenches[0].pressure_force.x(), mass * 3 * 0.4 * std::exp(-3 * last.time), 0.04 * mass * 3 * 0.4);
+}
+
+TEST_F(Waves, StillWaterInAZoneIsAsStill) {
+  Case scene = box_case(Vector3d(1.2, 0, 0.4), 0.2, 0.04);
+  Simulation without(scene);
+  scene.fluid.damping = {zone(0.6, 1.2, 8)};
+  Simulation with(scene);
+  run_to(without, 1);
+  run_to(with, 1);
+  EXPECT_LE(with.energies().kinetic, without.energies().kinetic);
+}
+
+TEST_F(Waves, ThatCannotBeAreTold) {
+  Case scene = flume(6, 0.05);
+  scene.fluid.damping = {zone(0, 2, 8)};
+  EXPECT_NE(error_of([&] { Simulation simulation(scene); }).find("fluid/damping/0/box lies over body 'piston'"), std::string::npos);
+  scene.fluid.damping.clear();
+  std::vector<std::string> told;
+  set_log_sink([&](LogLevel, const std::string& text) { told.push_back(text); });
+  const auto says = [&](const Case& it, const std::string& phrase) {
+    told.clear();
+    { Simulation simulation(it); }
+    for (const std::string& text : told)
+      if (text.find(phrase) != std::string::npos) return true;
+    return false;
+  };
+  WaveCase& wave = *scene.bodies[0].rigid.prescribed.waves;
+  EXPECT_TRUE(says(scene, "the waves of body piston are only 2 spacings high"));
+  wave.height = 0.45;
+  EXPECT_TRUE(says(scene, "the waves of body piston will break: they are 0.45 m high, higher than McCowan's"));
+  EXPECT_TRUE(says(scene, "which carries the paddle out of the tank"));
+  wave.height = 0.1;
+  wave.depth = 0.3;
+  EXPECT_TRUE(says(scene, "are made for a depth of 0.3 m, but the water is 0.4 m deep"));
+  wave.depth = 0.4;
+  wave.period = 5;
+  EXPECT_TRUE(says(scene, "have an Ursell number of"));
+  set_log_sink({});
+}
+
+}  // namespace
+}  // namespace wavetank

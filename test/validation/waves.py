@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Regular waves by a piston in a flume, against theory:
+
+waves.py WAVETANK_RUN DIRECTORY [PERIOD,HEIGHT,SPACING,ORDER]...
+
+Water 0.4 m deep, a flume of three wavelengths and a damping zone of one and a quarter more. Gauges an eighth of a wavelength apart from one wavelength on; of
+their records from the time at which the waves are there the harmonics of the period, by least squares over whole periods. Told are the height (twice the first
+harmonic's amplitude, mean over the gauges), the loss of it a wavelength, the wavelength that its phases have, the reflected wave, and of the second harmonic
+what travels by itself. Prints a table."""
+
+import math
+import os
+import subprocess
+import sys
+
+import numpy
+import yaml
+
+DEPTH, GRAVITY, FACE = 0.4, 9.81, 0.3  # m, m/s², m: of the piston at rest
+PERIODS = 6  # looked at
+DEFAULTS = ("1.2,0.1,0.0125,1", "1.2,0.1,0.0125,2", "0.9,0.1,0.0125,2", "1.6,0.1,0.0125,2")
+
+
+def wave_number(omega):
+    k = omega**2 / GRAVITY
+    for _ in range(200):
+        k = 0.5 * (k + omega**2 / (GRAVITY * math.tanh(k * DEPTH)))
+    return k
+
+
+def case_of(period, height, spacing, order):
+    length = 2 * math.pi / wave_number(2 * math.pi / period)
+    end = FACE + 4.25 * length
+    travel = 3 * length / (0.5 * length / period)  # by the group's speed, which is half the wave's at the least
+    gauges = [FACE + length * (1 + k / 8) for k in range(14)]
+    case = {
+        "title": "regular waves",
+        "dimensions": 2,
+        "gravity": [0, -GRAVITY],
+        "duration": travel + (PERIODS + 2) * period,
+        "fluid": {
+            "sound_speed": 20.0,
+            "spacing": spacing,
+            "fill": [{"box": {"min": [FACE, 0], "max": [end, DEPTH]}}],
+            "damping": [{"box": {"min": [FACE + 3 * length, 0], "max": [end, 0.7]}, "direction": [1, 0], "strength": 10 / period}],
+        },
+        "tank": {"box": {"size": [end, 0.7]}},
+        "bodies": [
+            {
+                "name": "piston",
+                "box": {"min": [FACE - 0.1, 0], "max": [FACE, 0.7]},
+                "motion": "prescribed",
+                "prescribed": {"waves": {"kind": "regular", "depth": DEPTH, "height": height, "period": period, "order": order}},
+            }
+        ],
+        "numerics": {"walls": {"slip": "free_slip"}, "artificial_viscosity": 0.005},
+        "instruments": {"rate": 100, "wave_gauges": [{"name": "g%d" % k, "position": [x]} for k, x in enumerate(gauges)]},
+    }
+    return case, numpy.array(gauges), length
+
+
+def levels_of(bag):
+    import rosbag
+
+    times, levels = [], []
+    with rosbag.Bag(bag) as messages:
+        start = messages.get_start_time()
+        for topic, message, _ in messages.read_messages():
+            if topic.endswith("/gauges"):
+                times.append(message.header.stamp.to_sec() - start)
+                levels.append(message.levels)
+    return numpy.array(times), numpy.array(levels)
+
+
+def harmonics(times, levels, period):
+    """Complex amplitudes of the first two, a row each, a column a gauge: η = Re Σ a exp(−iωt)."""
+    omega = 2 * math.pi / period
+    columns = [numpy.ones_like(times)]
+    for n in (1, 2, 3):
+        columns += [numpy.cos(n * omega * times), numpy.sin(n * omega * times)]
+    fit = numpy.linalg.lstsq(numpy.array(columns).T, levels, rcond=None)[0]
+    return fit[1] + 1j * fit[2], fit[3] + 1j * fit[4]
+
+
+def measured(times, levels, gauges, period):
+    omega = 2 * math.pi / period
+    k, free = wave_number(omega), wave_number(2 * omega)
+    end = times[-1]
+    wanted = times > end - PERIODS * period
+    first, second = harmonics(times[wanted], levels[wanted], period)
+    x = gauges - FACE
+    k_found = numpy.polyfit(x, numpy.unwrap(numpy.angle(first)), 1)[0]
+    # incident and reflected, with the wave number found; bound and free of the second harmonic
+    waves = numpy.linalg.lstsq(numpy.array([numpy.exp(1j * k_found * x), numpy.exp(-1j * k_found * x)]).T, first, rcond=None)[0]
+    twice = numpy.linalg.lstsq(numpy.array([numpy.exp(2j * k_found * x), numpy.exp(1j * free * x)]).T, second, rcond=None)[0]
+    decay = -numpy.polyfit(x, numpy.log(abs(first)), 1)[0] * 2 * math.pi / k
+    return {
+        "height": 2 * abs(waves[0]),
+        "length": k / k_found - 1,
+        "loss": decay,
+        "reflected": abs(waves[1] / waves[0]),
+        "free": 2 * abs(twice[1]),
+    }
+
+
+def main(program, directory, cases):
+    os.makedirs(directory, exist_ok=True)
+    print("| T, s | H, m | order | Δx, m | height | wavelength | loss a wavelength | reflected | free second harmonic |\n|---|---|---|---|---|---|---|---|---|")
+    for text in cases:
+        period, height, spacing, order = (float(number) for number in text.split(","))
+        base = os.path.join(directory, "waves_" + text.replace(",", "_"))
+        case, gauges, _ = case_of(period, height, spacing, int(order))
+        with open(base + ".yaml", "w") as file:
+            yaml.safe_dump(case, file)
+        with open(base + ".log", "w") as log:
+            if subprocess.call([program, base + ".yaml", "--bag", base + ".bag"], stdout=log, stderr=log) != 0:
+                sys.exit("waves.py: the simulation failed; '%s.log' tells why." % base)
+        times, levels = levels_of(base + ".bag")
+        found = measured(times, levels, gauges, period)
+        print(
+            "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% |"
+            % (
+                period,
+                height,
+                order,
+                spacing,
+                100 * (found["height"] / height - 1),
+                100 * found["length"],
+                100 * found["loss"],
+                100 * found["reflected"],
+                100 * found["free"] / height,
+            ),
+            flush=True,
+        )
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1], sys.argv[2], sys.argv[3:] or DEFAULTS))
