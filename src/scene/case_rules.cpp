@@ -95,6 +95,55 @@ void check_friction(const Case& read, const Setting& root, const FrictionCase& f
     clash(root, law, "law_of_the_wall of a smooth wall, which goes by the viscosity, and fluid/viscosity is 0; give that, or a roughness");
 }
 
+/// Along an axis that does not repeat itself: the water then has a depth, and may have a free surface.
+bool has_weight(const Case& read) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (read.gravity[axis] != 0.0 && !read.tank.periodic[axis]) return true;
+  return false;
+}
+
+// What least squares are not built for, and where water does not rest with them.
+void check_least_squares(const Case& read, const Setting& root) {
+  const NumericsCase& numerics = read.numerics;
+  const std::string chosen = "numerics/gradients is " + word_of(numerics.gradients);
+  const Setting* given = root.find("numerics");
+  if (numerics.gradients == Gradients::sph) {
+    if (given != nullptr && given->find("mls") != nullptr)
+      clash(root, "numerics/mls", "of moving least squares, and " + chosen + "; leave it out, or set that to mls_corrected or mls");
+    return;
+  }
+  if (numerics.scheme != Scheme::delta_sph)
+    clash(root, "numerics/scheme",
+          word_of(numerics.scheme) + ", which has gradients of its own, and " + chosen + "; set the one to delta_sph or the other to sph");
+  if (numerics.density_diffusion == DensityDiffusion::antuono)
+    clash(root, "numerics/density_diffusion", "antuono, which has gradients of its own, and " + chosen + "; choose fourtakas or none");
+  if (numerics.shifting != Shifting::none)
+    clash(root, "numerics/shifting", word_of(numerics.shifting) + ", by sums of SPH, and " + chosen + "; leave out one of them");
+  if (numerics.turbulence != Turbulence::none)
+    clash(root, "numerics/turbulence",
+          word_of(numerics.turbulence) + ", whose viscosity varies, and " + chosen +
+              ", whose Laplacian is of one viscosity; leave out one of them");
+  if (given != nullptr && given->find("viscosity_model") != nullptr)
+    clash(root, "numerics/viscosity_model",
+          word_of(numerics.viscosity_model) + ", a sum of SPH, and " + chosen +
+              ", whose viscosity is the Laplacian of the fit; leave it out");
+  if (numerics.mls.support && numerics.support && *numerics.mls.support > *numerics.support)
+    clash(root, "numerics/mls/support", "greater than numerics/support, within which neighbours are looked for; make it no greater");
+  if (!read.openings.empty())
+    clash(root, "openings", "given, and " + chosen + ", which is not built for the water behind them; set that to sph");
+  const bool whole = std::all_of(read.tank.periodic.begin(), read.tank.periodic.end(), [](bool along) { return along; });
+  const bool closed = whole || (read.dimensions == 2 && read.tank.periodic[0] && read.tank.periodic[2]);
+  if (numerics.mls.pressure == MlsPressure::difference && !closed)
+    clash(root, "numerics/mls/pressure",
+          "difference, to which a free surface is nothing: water would never leave its place but by noise; choose sum or adjoint, or make "
+          "the tank periodic along every axis");
+  if (numerics.negative_pressure == NegativePressure::allowed && has_weight(read))
+    clash(root, "numerics/negative_pressure", "allowed, with which water that has weight flies apart where " + chosen + "; choose clamped");
+  const WallCase& walls = numerics.walls;
+  if (walls.method == WallMethod::boundary_integral && !closed)
+    clash(root, "numerics/walls/method", "boundary_integral, and " + chosen + ", which needs images of the water in walls; choose ghost");
+}
+
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
 void check_periodic(const Case& read, const Setting& root) {
   const TankCase& tank = read.tank;
@@ -196,6 +245,7 @@ void check_case(const Case& read, const Setting& root) {
   if (read.fluid.fill.empty() && read.openings.empty())
     refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);
+  check_least_squares(read, root);
   check_friction(read, root, read.numerics.walls.friction, "numerics/walls/friction");
   for (std::size_t b = 0; b < read.bodies.size(); ++b)
     check_friction(read, root, read.bodies[b].skin_friction, join_path(join_path("bodies", b), "skin_friction"));

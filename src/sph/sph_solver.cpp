@@ -108,6 +108,10 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       group_alarms_(device, static_cast<std::size_t>(groups_) * reports_.integer_count()) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
+  if (scene.numerics.gradients != Gradients::sph && thinnest_wall().has_value())
+    throw Error(
+        "numerics/gradients is " + word_of(scene.numerics.gradients) +
+        ", which knows no thin walls, with water nearer on both sides than the support: choose sph, or make fluid/spacing smaller.");
   const WallMotions at_start = motions_at_start();
   const bool belts = std::any_of(at_start.owners.begin(), at_start.owners.end(), moves);
   const bool moving = moving_frame_ || owners_move || belts;
