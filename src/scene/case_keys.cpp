@@ -235,11 +235,12 @@ Section<NumericsCase> numerics_section() {
       meanings<DensityDiffusion>("Density diffusion; where it is not given, `none` with a Riemann scheme, which diffuses by itself"));
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
-              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme.");
+              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme and 0.05 with `gradients` other "
+              "than `sph`.");
   section
       .key("acoustic_damping", &NumericsCase::acoustic_damping, number(between(0, 10)), "",
            "Coefficient α₂ of the acoustic damper, a bulk viscosity α₂ c₀ h on sound alone; with `symplectic`. 0: none. Where it is not "
-           "given, 0 with a Riemann scheme or another integrator.")
+           "given, 0 with a Riemann scheme, another integrator or `gradients` other than `sph`.")
       .default_text = number_text(usual_acoustic_damping);
   section.key("turbulence", &NumericsCase::turbulence, method<Turbulence>(), "", meanings<Turbulence>("Model of eddies below the spacing"));
   section.key_where([](const NumericsCase& numerics) { return numerics.turbulence == Turbulence::smagorinsky; }, "smagorinsky_coefficient",

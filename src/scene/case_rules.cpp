@@ -129,6 +129,8 @@ void check_least_squares(const Case& read, const Setting& root) {
               ", whose viscosity is the Laplacian of the fit; leave it out");
   if (numerics.mls.support && numerics.support && *numerics.mls.support > *numerics.support)
     clash(root, "numerics/mls/support", "greater than numerics/support, within which neighbours are looked for; make it no greater");
+  if (numerics.acoustic_damping > 0)
+    clash(root, "numerics/acoustic_damping", "above 0, with which water does not rest where " + chosen + "; set it to 0, or leave it out");
   if (!read.openings.empty())
     clash(root, "openings", "given, and " + chosen + ", which is not built for the water behind them; set that to sph");
   const bool whole = std::all_of(read.tank.periodic.begin(), read.tank.periodic.end(), [](bool along) { return along; });
@@ -140,8 +142,9 @@ void check_least_squares(const Case& read, const Setting& root) {
   if (numerics.negative_pressure == NegativePressure::allowed && has_weight(read))
     clash(root, "numerics/negative_pressure", "allowed, with which water that has weight flies apart where " + chosen + "; choose clamped");
   const WallCase& walls = numerics.walls;
-  if (walls.method == WallMethod::boundary_integral && !closed)
-    clash(root, "numerics/walls/method", "boundary_integral, and " + chosen + ", which needs images of the water in walls; choose ghost");
+  if (walls.method == WallMethod::boundary_integral && walls.elements != WallElements::facet)
+    clash(root, "numerics/walls/elements",
+          "not facet, and " + chosen + ", whose images of the water go by facets; leave it out, or choose facet");
 }
 
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
@@ -221,9 +224,10 @@ void place_gauges(Case& read, const Setting& root) {
 void choose_dissipation(Case& read, const Setting& root) {
   const Setting* numerics = root.find("numerics");
   const auto given = [&](const char* key) { return numerics != nullptr && numerics->find(key) != nullptr; };
-  const bool delta_sph = read.numerics.scheme == Scheme::delta_sph;
+  const bool delta_sph = read.numerics.scheme == Scheme::delta_sph, sums = read.numerics.gradients == Gradients::sph;
   if (!given("acoustic_damping"))
-    read.numerics.acoustic_damping = delta_sph && read.numerics.integrator == Integrator::symplectic ? usual_acoustic_damping : 0;
+    read.numerics.acoustic_damping = delta_sph && sums && read.numerics.integrator == Integrator::symplectic ? usual_acoustic_damping : 0;
+  if (!given("artificial_viscosity") && !sums) read.numerics.artificial_viscosity = usual_least_squares_viscosity;
   if (delta_sph) return;
   if (!given("density_diffusion")) read.numerics.density_diffusion = DensityDiffusion::none;
   if (!given("artificial_viscosity")) read.numerics.artificial_viscosity = 0;

@@ -28,11 +28,11 @@ GRAVITY = 9.81  # m/s²
 
 
 def front_of(points, spacing):
-    """How far the water reaches from x = 0 without a gap of two spacings along x."""
+    """How far the water reaches from x = 0 without a gap of three spacings along x."""
     places = sorted(points)
     reach = places[0]
     for place in places:
-        if place - reach > 2 * spacing:
+        if place - reach > 3 * spacing:
             break
         reach = place
     return reach + 0.5 * spacing
@@ -49,10 +49,11 @@ def read(bag, spacing):
             if topic.endswith("/free_surface"):
                 fronts[0].append(message.header.stamp.to_sec())
                 fronts[1].append(front_of([x for x, in point_cloud2.read_points(message, field_names=("x",))], spacing))
-            elif "/gauges/" in topic:
-                times, levels = gauges.setdefault(topic.rsplit("/", 1)[1], ([], []))
-                times.append(message.header.stamp.to_sec())
-                levels.append(message.point.z)
+            elif topic.endswith("/gauges"):
+                for name, level in zip(message.names, message.levels):
+                    times, levels = gauges.setdefault(name, ([], []))
+                    times.append(message.header.stamp.to_sec())
+                    levels.append(level)
     return fronts, gauges
 
 

@@ -15,8 +15,8 @@ INLINE real find_planes(planes_t* planes, __constant const parameters_t* p, wall
   return a.clearance;
 }
 
+// Every value: a lane whose particle has fewer planes than another's takes part in the sums with no share, and nothing times what is not finite is not finite.
 INLINE void start_planes(planes_t* planes) {
-  planes->count = 0;
-  for (int q = 0; q < MOST_PLANES; ++q)
-    for (int k = 0; k < TILE_OWN; ++k) planes->share[q][k] = R(0.0);
+  const planes_t none = {0};
+  *planes = none;
 }
