@@ -184,7 +184,7 @@ Section<WallCase> wall_section() {
               "With fourtakas or no diffusion: whether the velocity's divergence is divided by the Shepard factor's root, and diffusion by "
               "the factor.");
   section.key("repulsion", &WallCase::repulsion, number(between(0, 1)), "(c₀/10)²",
-              "Of ghosts: strength of a short-range repulsion by the wall; 0 leaves it out.");
+              "Of ghosts, and of walls with moving least squares: strength of a short-range repulsion by the wall; 0 leaves it out.");
   section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
               "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off, but not the splash guard.");
   return section;
@@ -235,7 +235,7 @@ Section<NumericsCase> numerics_section() {
       meanings<DensityDiffusion>("Density diffusion; where it is not given, `none` with a Riemann scheme, which diffuses by itself"));
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
-              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme and 0.05 with `gradients` other "
+              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme and 0.1 with `gradients` other "
               "than `sph`.");
   section
       .key("acoustic_damping", &NumericsCase::acoustic_damping, number(between(0, 10)), "",

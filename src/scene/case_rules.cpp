@@ -54,7 +54,7 @@ void check_walls(const Case& read, const Setting& root) {
   if (walls.method == WallMethod::ghost && !read.bodies.empty())
     clash(root, "numerics/walls/method",
           "ghost, which mirrors the particles at the tank's planes only; leave out the bodies, or choose boundary_integral");
-  if (walls.method != WallMethod::ghost && walls.repulsion > 0.0)
+  if (walls.method != WallMethod::ghost && walls.repulsion > 0.0 && read.numerics.gradients == Gradients::sph)
     clash(root, "numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
   if (walls.method == WallMethod::ghost && read.tank.motion != Motion::fixed)
     clash(root, "numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
@@ -131,6 +131,10 @@ void check_least_squares(const Case& read, const Setting& root) {
     clash(root, "numerics/mls/support", "greater than numerics/support, within which neighbours are looked for; make it no greater");
   if (numerics.acoustic_damping > 0)
     clash(root, "numerics/acoustic_damping", "above 0, with which water does not rest where " + chosen + "; set it to 0, or leave it out");
+  if (!read.bodies.empty())
+    clash(root, "bodies", "given, and " + chosen + ", with which water does not rest at their edges; leave them out, or set that to sph");
+  if (read.tank.motion != Motion::fixed)
+    clash(root, "tank/motion", "other than fixed, and " + chosen + ", which is not built for it; set the one to fixed or the other to sph");
   if (!read.openings.empty())
     clash(root, "openings", "given, and " + chosen + ", which is not built for the water behind them; set that to sph");
   const bool whole = std::all_of(read.tank.periodic.begin(), read.tank.periodic.end(), [](bool along) { return along; });
@@ -142,9 +146,17 @@ void check_least_squares(const Case& read, const Setting& root) {
   if (numerics.negative_pressure == NegativePressure::allowed && has_weight(read))
     clash(root, "numerics/negative_pressure", "allowed, with which water that has weight flies apart where " + chosen + "; choose clamped");
   const WallCase& walls = numerics.walls;
-  if (walls.method == WallMethod::boundary_integral && walls.elements != WallElements::facet)
+  if (walls.method == WallMethod::ghost) return;
+  if (walls.elements != WallElements::facet)
     clash(root, "numerics/walls/elements",
           "not facet, and " + chosen + ", whose images of the water go by facets; leave it out, or choose facet");
+  if (numerics.mls.pressure == MlsPressure::adjoint && !closed)
+    clash(root, "numerics/mls/pressure",
+          "adjoint, with which water does not rest on boundary integrals; choose sum, or set numerics/walls/method to ghost");
+  const FrictionLaw friction = walls.friction.law;
+  if (friction != FrictionLaw::viscous && friction != FrictionLaw::none && walls.slip == Slip::no_slip)
+    clash(root, "numerics/walls/friction/law",
+          std::string(word_of(friction)) + ", and " + chosen + ", whose walls have viscous friction or none; choose one of these");
 }
 
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.

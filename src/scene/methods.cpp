@@ -25,7 +25,7 @@ const std::vector<MethodWord<Gradients>>& method_words() {
 template <>
 const std::vector<MethodWord<MlsPressure>>& method_words() {
   static const std::vector<MethodWord<MlsPressure>> words{
-      {MlsPressure::automatic, "auto", "`sum` with `mls_corrected`, `adjoint` with `mls`"},
+      {MlsPressure::automatic, "auto", "`adjoint` with `mls` between ghosts, else `sum`"},
       {MlsPressure::sum, "sum", "of p_i + p_j, which holds particles apart as SPH does"},
       {MlsPressure::difference, "difference", "of p_j − p_i, exact for quadratics but blind to free surfaces: for tanks without any"},
       {MlsPressure::adjoint, "adjoint", "minus the adjoint of the divergence, which conserves momentum and energy"}};

@@ -38,6 +38,8 @@ INLINE void find_rates_of_tile(__constant const parameters_t* p, int first, int 
     vector_t force = make_vector(-found.force.x[k], -found.force.y[k], -found.force.z[k]);
 #if GHOSTS
     add_repulsion(&force, p, images, x, y, z, density);
+#else
+    add_planes_repulsion(&force, p, &planes, k, density);
 #endif
     rates[RATE_U * stride + i] = force.x / density + found.viscous.x[k] + gravity.x;
     rates[RATE_V * stride + i] = DIMENSIONS == 3 ? force.y / density + found.viscous.y[k] + gravity.y : R(0.0);

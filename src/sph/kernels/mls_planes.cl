@@ -1,4 +1,6 @@
 // Finds the planes of mls_images.cl, by the loop of sweep.cl.
+#include "repulsion.cl"
+
 #define LEAST_SHARE R(1.0e-4)
 
 // The planes about own particle k, which is particle i, and how near the nearest wall is, at the least.
@@ -13,6 +15,16 @@ INLINE real find_planes(planes_t* planes, __constant const parameters_t* p, wall
     if (planes->share[q][k] > R(0.0)) planes->count = max(planes->count, q + 1);
   }
   return a.clearance;
+}
+
+// Of own particle k, from the planes by their shares.
+INLINE void add_planes_repulsion(vector_t* force, __constant const parameters_t* p, const planes_t* planes, int k, real density) {
+  for (int q = 0; q < planes->count; ++q) {
+    const real size = planes->share[q][k] * repulsion_at(p, planes->distance[q][k], density);
+    force->x -= size * planes->normal_x[q][k];
+    force->y -= size * planes->normal_y[q][k];
+    force->z -= size * planes->normal_z[q][k];
+  }
 }
 
 // Every value: a lane whose particle has fewer planes than another's takes part in the sums with no share, and nothing times what is not finite is not finite.

@@ -72,14 +72,15 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
       const real mass = volume * p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]);
       const vector_t push = make_vector(volume * found.force.x[k], volume * found.force.y[k], volume * found.force.z[k]);
       vector_t drag = make_vector(-mass * found.viscous.x[k], -mass * found.viscous.y[k], -mass * found.viscous.z[k]);
+      vector_t repelled = make_vector(R(0.0), R(0.0), R(0.0));
 #if LOCAL_IMAGES
       const vector_t place = foot_on_planes(&planes, &a.near, k);
+      add_planes_repulsion(&repelled, p, &planes, k, mass / volume);
 #else
       const vector_t place = make_vector(a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-      vector_t repelled = make_vector(R(0.0), R(0.0), R(0.0));
-      add_repulsion(&repelled, p, images, place.x, place.y, place.z, p->density * (R(1.0) + state[FIELD_COMPRESSION * stride + i]));
-      drag = plus(drag, make_vector(-volume * repelled.x, -volume * repelled.y, -volume * repelled.z));
+      add_repulsion(&repelled, p, images, place.x, place.y, place.z, mass / volume);
 #endif
+      drag = plus(drag, make_vector(-volume * repelled.x, -volume * repelled.y, -volume * repelled.z));
       add_to_wrench(&wrench, push, drag, make_vector(place.x - centre[0], place.y - centre[1], place.z - centre[2]));
     }
   }

@@ -34,7 +34,8 @@ std::vector<ParameterRow> numbers() {
 
 MlsPressure settled_form(const NumericsCase& numerics) {
   if (numerics.mls.pressure != MlsPressure::automatic) return numerics.mls.pressure;
-  return numerics.gradients == Gradients::mls ? MlsPressure::adjoint : MlsPressure::sum;
+  const bool adjoint = numerics.gradients == Gradients::mls && numerics.walls.method == WallMethod::ghost;
+  return adjoint ? MlsPressure::adjoint : MlsPressure::sum;
 }
 
 }  // namespace
