@@ -211,7 +211,7 @@ Section<LeastSquaresCase> least_squares_section() {
   section.key("pivot", &LeastSquaresCase::pivot, number(between(0, 1)), "",
               "Where less than this part of a basis function is not explained by those before it, the fit is of first order.");
   section.key("support", &LeastSquaresCase::support, number_or_auto(between(2, 8)), "Δx",
-              "Radius R_m within which neighbours count, no more than `numerics/support`; `auto` is 3 in 2-D and 2.6 in 3-D.");
+              "Radius R_m within which neighbours count, no more than `numerics/support`; `auto` is 3.4 in 2-D and 2.6 in 3-D.");
   return section;
 }
 

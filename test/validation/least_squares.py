@@ -28,11 +28,11 @@ GRAVITY = 9.81  # m/s²
 
 
 def front_of(points, spacing):
-    """How far the water reaches from x = 0 without a gap of three spacings along x."""
+    """How far the water reaches from x = 0 without a gap of four spacings along x."""
     places = sorted(points)
     reach = places[0]
     for place in places:
-        if place - reach > 3 * spacing:
+        if place - reach > 4 * spacing:
             break
         reach = place
     return reach + 0.5 * spacing

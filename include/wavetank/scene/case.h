@@ -315,7 +315,7 @@ struct PackingCase {
 struct LeastSquaresCase {
   MlsPressure pressure = MlsPressure::automatic;  ///< form of the pressure's gradient
   double pivot = 0.05;                            ///< least part of a basis function that those before it do not explain
-  std::optional<double> support;                  ///< R_m/Δx of the fit's weights; none = 3 in 2-D, 2.6 in 3-D
+  std::optional<double> support;                  ///< R_m/Δx of the fit's weights; none = 3.4 in 2-D, 2.6 in 3-D
 };
 
 struct NumericsCase {
