@@ -64,7 +64,7 @@ add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/wat
   ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
 
 # Longer runs, which scripts/validate starts, and what draws the picture of docs/walls.md.
-foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate)
+foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate channel_flow)
   add_executable(${program} EXCLUDE_FROM_ALL test/validation/${program}.cpp)
   target_link_libraries(${program} wavetank_simulation)
   target_compile_definitions(${program} PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")

@@ -136,6 +136,8 @@ SolverStatus status_message(const Case& checked, const SolverState& solver, cons
   message.steps_per_second = run.steps_per_second;
   message.guard_hits = solver.guard_hits;
   message.shepard_bounded = solver.shepard_bounded;
+  message.fits_of_first_order = solver.fits_of_first_order;
+  message.fits_below_first_order = solver.fits_below_first_order;
   return message;
 }
 

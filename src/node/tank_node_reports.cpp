@@ -97,6 +97,8 @@ void TankNode::fill_diagnostics(diagnostic_updater::DiagnosticStatusWrapper& rep
   report.add("greatest speed (m/s)", status.solver.greatest_speed);
   report.add("guard hits", status.solver.guard_hits);
   report.add("shepard factors bounded", status.solver.shepard_bounded);
+  report.add("fits of first order", status.solver.fits_of_first_order);
+  report.add("fits below first order", status.solver.fits_below_first_order);
 }
 
 void TankNode::decide_about_exit(const LoopStatus& status) {

@@ -206,7 +206,7 @@ Section<WallCase> wall_section() {
               "With fourtakas or no diffusion: whether the velocity's divergence is divided by the Shepard factor's root, and diffusion by "
               "the factor.");
   section.key("repulsion", &WallCase::repulsion, number(between(0, 1)), "(c₀/10)²",
-              "Of ghosts: strength of a short-range repulsion by the wall; 0 leaves it out.");
+              "Of ghosts, and of walls with moving least squares: strength of a short-range repulsion by the wall; 0 leaves it out.");
   section.key("guard_distance", &WallCase::guard_distance, number(between(0, 1)), "Δx",
               "Nearer to a wall than this, a particle loses its velocity towards it; 0 switches the guard off, but not the splash guard.");
   return section;
@@ -227,6 +227,16 @@ std::string meanings(const std::string& subject) {
   return text + ".";
 }
 
+Section<LeastSquaresCase> least_squares_section() {
+  Section<LeastSquaresCase> section;
+  section.key("pressure", &LeastSquaresCase::pressure, method<MlsPressure>(), "", meanings<MlsPressure>("Form of the pressure's gradient"));
+  section.key("pivot", &LeastSquaresCase::pivot, number(between(0, 1)), "",
+              "Where less than this part of a basis function is not explained by those before it, the fit is of first order.");
+  section.key("support", &LeastSquaresCase::support, number_or_auto(between(2, 8)), "Δx",
+              "Radius R_m within which neighbours count, no more than `numerics/support`; `auto` is 3.4 in 2-D and 2.6 in 3-D.");
+  return section;
+}
+
 Section<NumericsCase> numerics_section() {
   Section<PackingCase> packing;
   packing.key("iterations", &PackingCase::iterations, whole_number(between(0, 100000)), "",
@@ -236,6 +246,9 @@ Section<NumericsCase> numerics_section() {
       "Damped time before the start, in which the water comes to rest with its free sides held; H is its greatest depth. 0 leaves it out.");
   Section<NumericsCase> section;
   section.key("scheme", &NumericsCase::scheme, method<Scheme>(), "", meanings<Scheme>("The SPH scheme"));
+  section.key("gradients", &NumericsCase::gradients, method<Gradients>(), "", meanings<Gradients>("How derivatives are found"));
+  section.key_where([](const NumericsCase& numerics) { return numerics.gradients != Gradients::sph; }, "mls", &NumericsCase::mls,
+                    section_of(least_squares_section()), "", "Moving least squares, of `gradients` other than `sph`.");
   section.key("support", &NumericsCase::support, number_or_auto(between(2, 8)), "Δx",
               "Radius R of the kernel's support; `auto` is 4 in 2-D and 3 in 3-D.");
   section.key("walls", &NumericsCase::walls, section_of(wall_section()), "", "Walls of the tank and of the bodies.");
@@ -244,19 +257,21 @@ Section<NumericsCase> numerics_section() {
       meanings<DensityDiffusion>("Density diffusion; where it is not given, `none` with a Riemann scheme, which diffuses by itself"));
   section.key("density_diffusion_coefficient", &NumericsCase::density_diffusion_coefficient, number(between(0, 1)), "", "δ.");
   section.key("artificial_viscosity", &NumericsCase::artificial_viscosity, number(between(0, 1)), "",
-              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme.");
+              "Coefficient α of the artificial viscosity; where it is not given, 0 with a Riemann scheme and 0.1 with `gradients` other "
+              "than `sph`.");
   section
       .key("acoustic_damping", &NumericsCase::acoustic_damping, number(between(0, 10)), "",
            "Coefficient α₂ of the acoustic damper, a bulk viscosity α₂ c₀ h on sound alone; with `symplectic`. 0: none. Where it is not "
-           "given, 0 with a Riemann scheme or another integrator.")
+           "given, 0 with a Riemann scheme, another integrator or `gradients` other than `sph`.")
       .default_text = number_text(usual_acoustic_damping);
   section.key("turbulence", &NumericsCase::turbulence, method<Turbulence>(), "", meanings<Turbulence>("Model of eddies below the spacing"));
   section.key_where([](const NumericsCase& numerics) { return numerics.turbulence == Turbulence::smagorinsky; }, "smagorinsky_coefficient",
                     &NumericsCase::smagorinsky_coefficient, number(between(0, 1)), "", "C_s.");
   section.key("equation_of_state", &NumericsCase::equation_of_state, method<EquationOfState>(), "",
               meanings<EquationOfState>("Pressure from density"));
-  section.key("viscosity_model", &NumericsCase::viscosity_model, method<ViscosityModel>(), "",
-              meanings<ViscosityModel>("Form of the physical viscosity's sum"));
+  section.key_where([](const NumericsCase& numerics) { return numerics.gradients == Gradients::sph; }, "viscosity_model",
+                    &NumericsCase::viscosity_model, method<ViscosityModel>(), "",
+                    meanings<ViscosityModel>("Form of the physical viscosity's sum, of `gradients: sph`"));
   section.key("negative_pressure", &NumericsCase::negative_pressure,
               choice<NegativePressure>({{"allowed", NegativePressure::allowed}, {"clamped", NegativePressure::clamped}}), "",
               "What the fluid does where its pressure would fall below that of the air.");

@@ -18,6 +18,9 @@ void place_gauges(Case& read, const Setting& root);
 /// costs no time step with the usual `courant` and `artificial_viscosity`.
 inline constexpr double usual_acoustic_damping = 2;
 
+/// α of a case file that does not give it, with moving least squares: with 0.02, the usual one of SPH, water does not rest.
+inline constexpr double usual_least_squares_viscosity = 0.1;
+
 /// δ-SPH's diffusion, artificial viscosity and acoustic damper are the defaults of that scheme only.
 void choose_dissipation(Case& read, const Setting& root);
 

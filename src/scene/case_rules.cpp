@@ -54,7 +54,7 @@ void check_walls(const Case& read, const Setting& root) {
   if (walls.method == WallMethod::ghost && !read.bodies.empty())
     clash(root, "numerics/walls/method",
           "ghost, which mirrors the particles at the tank's planes only; leave out the bodies, or choose boundary_integral");
-  if (walls.method != WallMethod::ghost && walls.repulsion > 0.0)
+  if (walls.method != WallMethod::ghost && walls.repulsion > 0.0 && read.numerics.gradients == Gradients::sph)
     clash(root, "numerics/walls/repulsion", "for ghosts only; leave it out, or set numerics/walls/method to ghost");
   if (walls.method == WallMethod::ghost && read.tank.motion != Motion::fixed)
     clash(root, "numerics/walls/method", "ghost, whose images stand still; set tank/motion to fixed, or choose boundary_integral");
@@ -93,6 +93,70 @@ void check_friction(const Case& read, const Setting& root, const FrictionCase& f
           std::string(word_of(friction.law)) + ", of walls without slip, and numerics/walls/slip is free_slip; leave out one of them");
   if (friction.law == FrictionLaw::law_of_the_wall && friction.roughness == 0.0 && read.fluid.viscosity == 0.0)
     clash(root, law, "law_of_the_wall of a smooth wall, which goes by the viscosity, and fluid/viscosity is 0; give that, or a roughness");
+}
+
+/// Along an axis that does not repeat itself: the water then has a depth, and may have a free surface.
+bool has_weight(const Case& read) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (read.gravity[axis] != 0.0 && !read.tank.periodic[axis]) return true;
+  return false;
+}
+
+// What least squares are not built for, and where water does not rest with them.
+void check_least_squares(const Case& read, const Setting& root) {
+  const NumericsCase& numerics = read.numerics;
+  const std::string chosen = "numerics/gradients is " + word_of(numerics.gradients);
+  const Setting* given = root.find("numerics");
+  if (numerics.gradients == Gradients::sph) {
+    if (given != nullptr && given->find("mls") != nullptr)
+      clash(root, "numerics/mls", "of moving least squares, and " + chosen + "; leave it out, or set that to mls_corrected or mls");
+    return;
+  }
+  if (numerics.scheme != Scheme::delta_sph)
+    clash(root, "numerics/scheme",
+          word_of(numerics.scheme) + ", which has gradients of its own, and " + chosen + "; set the one to delta_sph or the other to sph");
+  if (numerics.density_diffusion == DensityDiffusion::antuono)
+    clash(root, "numerics/density_diffusion", "antuono, which has gradients of its own, and " + chosen + "; choose fourtakas or none");
+  if (numerics.shifting != Shifting::none)
+    clash(root, "numerics/shifting", word_of(numerics.shifting) + ", by sums of SPH, and " + chosen + "; leave out one of them");
+  if (numerics.turbulence != Turbulence::none)
+    clash(root, "numerics/turbulence",
+          word_of(numerics.turbulence) + ", whose viscosity varies, and " + chosen +
+              ", whose Laplacian is of one viscosity; leave out one of them");
+  if (given != nullptr && given->find("viscosity_model") != nullptr)
+    clash(root, "numerics/viscosity_model",
+          word_of(numerics.viscosity_model) + ", a sum of SPH, and " + chosen +
+              ", whose viscosity is the Laplacian of the fit; leave it out");
+  if (numerics.mls.support && numerics.support && *numerics.mls.support > *numerics.support)
+    clash(root, "numerics/mls/support", "greater than numerics/support, within which neighbours are looked for; make it no greater");
+  if (numerics.acoustic_damping > 0)
+    clash(root, "numerics/acoustic_damping", "above 0, with which water does not rest where " + chosen + "; set it to 0, or leave it out");
+  if (!read.bodies.empty())
+    clash(root, "bodies", "given, and " + chosen + ", with which water does not rest at their edges; leave them out, or set that to sph");
+  if (read.tank.motion != Motion::fixed)
+    clash(root, "tank/motion", "other than fixed, and " + chosen + ", which is not built for it; set the one to fixed or the other to sph");
+  if (!read.openings.empty())
+    clash(root, "openings", "given, and " + chosen + ", which is not built for the water behind them; set that to sph");
+  const bool whole = std::all_of(read.tank.periodic.begin(), read.tank.periodic.end(), [](bool along) { return along; });
+  const bool closed = whole || (read.dimensions == 2 && read.tank.periodic[0] && read.tank.periodic[2]);
+  if (numerics.mls.pressure == MlsPressure::difference && !closed)
+    clash(root, "numerics/mls/pressure",
+          "difference, to which a free surface is nothing: water would never leave its place but by noise; choose sum or adjoint, or make "
+          "the tank periodic along every axis");
+  if (numerics.negative_pressure == NegativePressure::allowed && has_weight(read))
+    clash(root, "numerics/negative_pressure", "allowed, with which water that has weight flies apart where " + chosen + "; choose clamped");
+  const WallCase& walls = numerics.walls;
+  if (walls.method == WallMethod::ghost) return;
+  if (walls.elements != WallElements::facet)
+    clash(root, "numerics/walls/elements",
+          "not facet, and " + chosen + ", whose images of the water go by facets; leave it out, or choose facet");
+  if (numerics.mls.pressure == MlsPressure::adjoint && !closed)
+    clash(root, "numerics/mls/pressure",
+          "adjoint, with which water does not rest on boundary integrals; choose sum, or set numerics/walls/method to ghost");
+  const FrictionLaw friction = walls.friction.law;
+  if (friction != FrictionLaw::viscous && friction != FrictionLaw::none && walls.slip == Slip::no_slip)
+    clash(root, "numerics/walls/friction/law",
+          std::string(word_of(friction)) + ", and " + chosen + ", whose walls have viscous friction or none; choose one of these");
 }
 
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
@@ -172,9 +236,10 @@ void place_gauges(Case& read, const Setting& root) {
 void choose_dissipation(Case& read, const Setting& root) {
   const Setting* numerics = root.find("numerics");
   const auto given = [&](const char* key) { return numerics != nullptr && numerics->find(key) != nullptr; };
-  const bool delta_sph = read.numerics.scheme == Scheme::delta_sph;
+  const bool delta_sph = read.numerics.scheme == Scheme::delta_sph, sums = read.numerics.gradients == Gradients::sph;
   if (!given("acoustic_damping"))
-    read.numerics.acoustic_damping = delta_sph && read.numerics.integrator == Integrator::symplectic ? usual_acoustic_damping : 0;
+    read.numerics.acoustic_damping = delta_sph && sums && read.numerics.integrator == Integrator::symplectic ? usual_acoustic_damping : 0;
+  if (!given("artificial_viscosity") && !sums) read.numerics.artificial_viscosity = usual_least_squares_viscosity;
   if (delta_sph) return;
   if (!given("density_diffusion")) read.numerics.density_diffusion = DensityDiffusion::none;
   if (!given("artificial_viscosity")) read.numerics.artificial_viscosity = 0;
@@ -196,6 +261,7 @@ void check_case(const Case& read, const Setting& root) {
   if (read.fluid.fill.empty() && read.openings.empty())
     refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);
+  check_least_squares(read, root);
   check_friction(read, root, read.numerics.walls.friction, "numerics/walls/friction");
   for (std::size_t b = 0; b < read.bodies.size(); ++b)
     check_friction(read, root, read.bodies[b].skin_friction, join_path(join_path("bodies", b), "skin_friction"));

@@ -13,6 +13,26 @@ const std::vector<MethodWord<Scheme>>& method_words() {
 }
 
 template <>
+const std::vector<MethodWord<Gradients>>& method_words() {
+  static const std::vector<MethodWord<Gradients>> words{
+      {Gradients::sph, "sph", "sums of the kernel's gradients"},
+      {Gradients::mls_corrected, "mls_corrected",
+       "the same sums with the kernel's gradients corrected by second-order moving least squares, and viscosity by their Laplacian"},
+      {Gradients::mls, "mls", "all derivatives, those of the artificial viscosity too, straight from moving least squares"}};
+  return words;
+}
+
+template <>
+const std::vector<MethodWord<MlsPressure>>& method_words() {
+  static const std::vector<MethodWord<MlsPressure>> words{
+      {MlsPressure::automatic, "auto", "`adjoint` with `mls` between ghosts, else `sum`"},
+      {MlsPressure::sum, "sum", "of p_i + p_j, which holds particles apart as SPH does"},
+      {MlsPressure::difference, "difference", "of p_j − p_i, exact for quadratics but blind to free surfaces: for tanks without any"},
+      {MlsPressure::adjoint, "adjoint", "minus the adjoint of the divergence, which conserves momentum and energy"}};
+  return words;
+}
+
+template <>
 const std::vector<MethodWord<DensityDiffusion>>& method_words() {
   static const std::vector<MethodWord<DensityDiffusion>> words{
       {DensityDiffusion::none, "none", "with which water at rest does not stay so"},

@@ -306,6 +306,8 @@ SolverState Simulation::state() const {
   state.greatest_speed = parts.report.greatest_speed;
   state.guard_hits = parts.guard_hits;
   state.shepard_bounded = static_cast<std::uint64_t>(parts.report.shepard_bounded);
+  state.fits_of_first_order = parts.report.counted("fits_of_first_order");
+  state.fits_below_first_order = parts.report.counted("fits_below_first_order");
   return state;
 }
 

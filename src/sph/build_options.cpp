@@ -36,7 +36,7 @@ bool all_have(const Case& scene, FrictionLaw law) {
 BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
   const NumericsCase& n = scene.numerics;
   const ShepardFactor shepard = n.walls.method == WallMethod::ghost ? ShepardFactor::none : n.walls.shepard;
-  return {
+  BuildOptions options{
       {"DIMENSIONS", scene.dimensions},
       {"USE_DOUBLE", choice.use_double},
       {"NO_SLIP", !all_have(scene, FrictionLaw::none)},
@@ -59,6 +59,8 @@ BuildOptions build_options(const Case& scene, const BuildChoice& choice) {
       {"SHEPARD_VOLUMETRIC", shepard == ShepardFactor::volumetric},
       {"RENORMALISE_DIVERGENCE", n.walls.renormalise_divergence},
   };
+  if (n.gradients != Gradients::sph) options["MLS_DIRECT"] = n.gradients == Gradients::mls;
+  return options;
 }
 
 std::string text_of(const BuildOptions& options) {

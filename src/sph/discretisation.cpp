@@ -24,6 +24,7 @@ Case settled(const Case& checked, const Layout& layout, double fastest_wall) {
   result.fluid.spacing = layout.spacing;
   result.fluid.particles.reset();
   if (!result.numerics.support) result.numerics.support = checked.dimensions == 2 ? 4.0 : 3.0;
+  if (!result.numerics.mls.support) result.numerics.mls.support = std::min(checked.dimensions == 2 ? 3.4 : 2.6, *result.numerics.support);
   if (!result.fluid.sound_speed) {
     const double speed = std::max(expected_speed(checked, layout), fastest_wall);
     if (!(speed > 0.0))

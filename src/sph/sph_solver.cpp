@@ -58,6 +58,16 @@ double farthest_drift(const Schedule& schedule, const Case& scene, const Discret
   return std::max(0.25 * d.spacing, schedule.drift() * way);
 }
 
+/// Least squares have images of the water in walls, for which one on the other side of an edge, or of a thin wall, would be in the water.
+void check_walls_of_least_squares(const Case& scene, const Layout& layout, bool thin_walls) {
+  const std::string chosen = "numerics/gradients is " + word_of(scene.numerics.gradients);
+  if (thin_walls)
+    throw Error(
+        chosen +
+        ", which knows no thin walls, with water nearer on both sides than the support: choose sph, or make fluid/spacing smaller.");
+  tank_planes(layout, chosen, "sph");
+}
+
 }  // namespace
 
 template <class Real>
@@ -108,6 +118,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       group_alarms_(device, static_cast<std::size_t>(groups_) * reports_.integer_count()) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
+  if (scene.numerics.gradients != Gradients::sph) check_walls_of_least_squares(scene, layout, thinnest_wall().has_value());
   const WallMotions at_start = motions_at_start();
   const bool belts = std::any_of(at_start.owners.begin(), at_start.owners.end(), moves);
   const bool moving = moving_frame_ || owners_move || belts;

@@ -30,21 +30,23 @@ void SphSolver<Real>::bind_kernels() {
   compute::Arguments sorting = arguments();
   drains_.add_to(sorting);
   surroundings_.grid.bind(*make_, sorting.memory("half_state", half_).memory("spare_id", spare_id_));
-  wrenches_.bind(*make_, {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
+  wrenches_.bind(*make_, case_.numerics.gradients == Gradients::sph ? "wall_forces.cl" : "mls_wall_forces.cl",
+                 {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
   guarded_.bind(*make_, arguments().memory("report", report_));
   if (moving_walls_) moving_walls_->bind(*make_, arguments(), walls_);
 }
 
 template <class Real>
 void SphSolver<Real>::bind_sweeps() {
+  const std::string by = case_.numerics.gradients == Gradients::sph ? "" : "mls_";  // of all that goes by the case's gradients
   for (const Slot slot : {Slot::now, Slot::trial}) {
     const compute::Arguments of_state = arguments_of(slot);
     compute::Arguments writes = of_state;
-    kernels_.continuity[slot] = make_->over_particles("continuity.cl", "continuity", writes.memory("rates", rates_));
-    kernels_.momentum[slot] = make_->over_particles("momentum.cl", "momentum", writes);
-    kernels_.rates[slot] = make_->over_particles("rates.cl", "rates_of_state", writes);
+    kernels_.continuity[slot] = make_->over_particles(by + "continuity.cl", "continuity", writes.memory("rates", rates_));
+    kernels_.momentum[slot] = make_->over_particles(by + "momentum.cl", "momentum", writes);
+    kernels_.rates[slot] = make_->over_particles(by + "rates.cl", "rates_of_state", writes);
     writes = of_state;
-    kernels_.gradients[slot] = make_->over_particles("gradients.cl", "gradients", writes.memory("gradient", gradient_));
+    kernels_.gradients[slot] = make_->over_particles(by + "gradients.cl", "gradients", writes.memory("gradient", gradient_));
     writes = of_state;
     kernels_.loads[slot] = make_->over_points("wall_loads.cl", "wall_loads", writes.value("count", walls_.count).memory("loads", loads_));
   }

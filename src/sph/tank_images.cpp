@@ -55,7 +55,7 @@ void add_images(const std::vector<Generator>& generators, std::size_t next, cons
 
 }  // namespace
 
-std::vector<TankPlane> tank_planes(const Layout& layout) {
+std::vector<TankPlane> tank_planes(const Layout& layout, const std::string& chosen, const std::string& instead) {
   std::vector<TankPlane> planes;
   const double tolerance = flat_distance * layout.spacing;
   for (const Facet& facet : layout.facets) {
@@ -70,14 +70,14 @@ std::vector<TankPlane> tank_planes(const Layout& layout) {
     for (const TankPlane& other : planes) {
       const double cosine = std::abs(plane.normal.dot(other.normal));
       if (cosine > parallel && cosine < 1.0 - parallel)
-        throw Error("numerics/walls/method is ghost, which needs walls at right angles, but the tank has walls that face " +
-                    text(plane.normal) + " and " + text(other.normal) + ": choose boundary_integral.");
+        throw Error(chosen + ", which needs walls at right angles, but the tank has walls that face " + text(plane.normal) + " and " +
+                    text(other.normal) + ": choose " + instead + ".");
     }
     for (const Facet& facet : layout.facets) {
       for (const Vector3d& corner : facet.corners) {
         if (plane.normal.dot(corner) + plane.offset < -10 * tolerance)
-          throw Error("numerics/walls/method is ghost, which needs a convex tank, but the wall at " + text(corner) +
-                      " m lies behind another: choose boundary_integral.");
+          throw Error(chosen + ", which needs a convex tank, but the wall at " + text(corner) + " m lies behind another: choose " +
+                      instead + ".");
       }
     }
   }

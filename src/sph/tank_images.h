@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "wavetank/geometry/layout.h"
@@ -24,8 +25,10 @@ struct TankImage {
   bool mirrored = false;
 };
 
-/// The planes of a tank's own walls, each once. Throws Error unless the tank is convex and its planes are parallel or at right angles.
-std::vector<TankPlane> tank_planes(const Layout& layout);
+/// The planes of a tank's own walls, each once. Throws Error unless the tank is convex and its planes are parallel or at right angles,
+/// which `chosen`, a key and its value, needs and `instead` does not.
+std::vector<TankPlane> tank_planes(const Layout& layout, const std::string& chosen = "numerics/walls/method is ghost",
+                                   const std::string& instead = "boundary_integral");
 
 /// All images that a case's particles can see; none for a case that is neither periodic nor walled by ghosts. Coordinates are the device's.
 /// Throws Error for what ghosts cannot do, and for a tank narrower than the kernel's support between images.

@@ -35,14 +35,14 @@ WallWrenches<Real>::WallWrenches(const compute::Device& device, const Discretisa
       totals_(device, boxes.size() * field::wrench_count) {}
 
 template <class Real>
-void WallWrenches<Real>::bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& given) {
+void WallWrenches<Real>::bind(const KernelMaker& make, const std::string& file, const std::map<Slot, compute::Arguments>& given) {
   std::map<Slot, compute::Arguments> arguments = given;
   for (auto& [slot, own] : arguments) {
     own.value("regions", region_count_).value("items", region_items_).value("chunks", chunks_);
     own.memory("region_values", regions_.on_device()).memory("totals", totals_);
     compute::Arguments sweep = own;
     sweep.value("count", region_items_).memory("wrenches", parts_);
-    forces_[slot] = make.over_runs("wall_forces.cl", "wall_forces", sweep);
+    forces_[slot] = make.over_runs(file, "wall_forces", sweep);
   }
   compute::Arguments reduction = arguments.begin()->second;
   reduction.value("count", sum_count_).memory("wrenches", std::as_const(parts_)).memory("sums", sums_);

@@ -20,7 +20,8 @@ class WallWrenches {
                const std::vector<WallElement>& pieces, bool everywhere, double drift);
 
   /// `arguments`: of the surroundings, and for each slot of a state that wrenches are found of. This must stay where it is from then on.
-  void bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& arguments);
+  /// `file`: that has the forces on walls by the case's gradients.
+  void bind(const KernelMaker& make, const std::string& file, const std::map<Slot, compute::Arguments>& arguments);
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
   /// One wrench a listed owner.

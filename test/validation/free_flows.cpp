@@ -3,8 +3,8 @@
 // FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
 // Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows
 // (10), alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision; and any of the case's method
-// words as KEY=WORD: scheme, shifting, tensile, integrator, equation_of_state (cole), density_diffusion. c₀ and lengths make the rest: Δt =
-// 0.75 h/c₀, times `step`.
+// words as KEY=WORD: scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator, equation_of_state
+// (cole), density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -110,7 +110,12 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   numerics.courant = 1.5;
   choose(words, "scheme", numerics.scheme);
   const bool riemann = numerics.scheme != Scheme::delta_sph;
-  numerics.density_diffusion = riemann ? DensityDiffusion::none : DensityDiffusion::antuono;
+  choose(words, "gradients", numerics.gradients);
+  choose(words, "pressure", numerics.mls.pressure);
+  choose(words, "viscosity_model", numerics.viscosity_model);
+  numerics.density_diffusion = riemann                                ? DensityDiffusion::none
+                               : numerics.gradients == Gradients::sph ? DensityDiffusion::antuono
+                                                                      : DensityDiffusion::fourtakas;
   numerics.artificial_viscosity = riemann || flow.reynolds > 0 ? 0 : number(words, "alpha", 0.01);
   choose(words, "integrator", numerics.integrator);
   choose(words, "equation_of_state", numerics.equation_of_state);
@@ -216,13 +221,7 @@ int main(int count, char** arguments) {
   using namespace wavetank;
   try {
     const std::string name = count > 1 ? arguments[1] : "";
-    Words words;
-    for (int k = 2; k < count; ++k) {
-      const std::string word = arguments[k];
-      const auto sign = word.find('=');
-      if (sign == std::string::npos) throw Error(word + " is no WORD=VALUE");
-      words[word.substr(0, sign)] = word.substr(sign + 1);
-    }
+    const Words words = words_of(std::max(count - 2, 0), arguments + 2);
     std::unique_ptr<Flow> flow;
     if (name == "taylor_green") flow = std::make_unique<TaylorGreen>(words);
     if (name == "square") flow = std::make_unique<TurningSquare>(words);

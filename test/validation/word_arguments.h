@@ -11,6 +11,17 @@ namespace wavetank::validation {
 /// NAME=VALUE arguments of a program, by their names.
 using Words = std::map<std::string, std::string>;
 
+inline Words words_of(int count, char** arguments) {
+  Words words;
+  for (int k = 0; k < count; ++k) {
+    const std::string word = arguments[k];
+    const std::size_t sign = word.find('=');
+    if (sign == std::string::npos) throw Error(word + " is no WORD=VALUE");
+    words[word.substr(0, sign)] = word.substr(sign + 1);
+  }
+  return words;
+}
+
 inline double number(const Words& words, const std::string& name, double otherwise) {
   const auto found = words.find(name);
   return found == words.end() ? otherwise : std::stod(found->second);

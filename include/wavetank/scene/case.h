@@ -369,8 +369,17 @@ struct PackingCase {
   double settling = 0;   ///< of damped steps before the start, in periods 4 H/c₀ of the slowest sound; 0 = none
 };
 
+/// Of the second-order moving least squares that `gradients` may go by.
+struct LeastSquaresCase {
+  MlsPressure pressure = MlsPressure::automatic;  ///< form of the pressure's gradient
+  double pivot = 0.05;                            ///< least part of a basis function that those before it do not explain
+  std::optional<double> support;                  ///< R_m/Δx of the fit's weights; none = 3.4 in 2-D, 2.6 in 3-D
+};
+
 struct NumericsCase {
   Scheme scheme = Scheme::delta_sph;
+  Gradients gradients = Gradients::sph;
+  LeastSquaresCase mls;
   std::optional<double> support;  ///< R/Δx; none = 4 in 2-D, 3 in 3-D
   WallCase walls;
   DensityDiffusion density_diffusion = DensityDiffusion::fourtakas;

@@ -8,6 +8,8 @@
 namespace wavetank {
 
 enum class Scheme { delta_sph, riemann_parshikov, riemann_ale };
+enum class Gradients { sph, mls_corrected, mls };
+enum class MlsPressure { automatic, sum, difference, adjoint };
 enum class DensityDiffusion { none, fourtakas, antuono };
 enum class EquationOfState { linear, cole };
 enum class ViscosityModel { monaghan_gingold, morris };

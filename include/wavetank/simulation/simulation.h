@@ -36,9 +36,11 @@ struct SolverState {
   std::uint64_t step = 0;
   double time_step = 0;  ///< s, of the next step
   std::size_t particles = 0;
-  double greatest_speed = 0;          ///< m/s
-  std::uint64_t guard_hits = 0;       ///< since the start: times a particle was kept from crossing a wall
-  std::uint64_t shepard_bounded = 0;  ///< in the last step: particles whose γ was below 0.05 or above 1.005
+  double greatest_speed = 0;                 ///< m/s
+  std::uint64_t guard_hits = 0;              ///< since the start: times a particle was kept from crossing a wall
+  std::uint64_t shepard_bounded = 0;         ///< in the last step: particles whose γ was below 0.05 or above 1.005
+  std::uint64_t fits_of_first_order = 0;     ///< likewise: particles whose least squares fell back to first order
+  std::uint64_t fits_below_first_order = 0;  ///< likewise: to what few neighbours tell
 };
 
 /// Of an opening, since the start.

@@ -47,6 +47,11 @@ struct StepReport {
   Eigen::Vector3d offender_velocity = Eigen::Vector3d::Zero();  ///< m/s
 
   bool valid() const { return offender < 0; }  ///< no particle is in violation
+  /// A count that a case's method adds; 0 where it does not.
+  std::uint64_t counted(const std::string& name) const {
+    const auto found = more.find(name);
+    return found == more.end() ? 0 : static_cast<std::uint64_t>(found->second);
+  }
 };
 
 struct PackingReport {

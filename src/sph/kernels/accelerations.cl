@@ -38,7 +38,7 @@ INLINE void accelerate_tile(__constant const parameters_t* p, int first, int cou
 #endif
 #if GHOSTS
     b.clearance = R(0.0);  // the guard looks for itself
-    add_repulsion(&b, p, images);
+    repel(&b, p, images);
 #else
     add_film(&b, p, film, images);
     stand_at(walls, state, stride, i);

@@ -15,6 +15,7 @@
 #include "viscosity.cl"
 #include "turbulence.cl"
 #include "friction.cl"
+#include "repulsion.cl"
 #if BOTH_RATES
 #include "continuity_sums.cl"
 #endif
@@ -263,24 +264,12 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 }
 
 #if GHOSTS
-// Short-range repulsion by the foot of the particle on each plane ([B] of docs/numerics.md, §4): Lennard–Jones with exponents 4 and 2, from half a spacing on, and no harder than
-// at a tenth of it.
-INLINE void add_repulsion(wall_sweep_t* a, __constant const parameters_t* p, __global const real* images) {
-  for (int k = 0; k < p->images; ++k) {
-    __global const real* image = images + k * IMAGE_COUNT;
-    if (image[IMAGE_MIRRORED] < R(0.5) || image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;
-    __global const real* plane = image + IMAGE_NEAR;
-    const real distance = plane[0] * a->x + plane[1] * a->y + plane[2] * a->z + plane[3];
-    const real reach = R(0.5) * p->spacing;
-    if (distance >= reach) continue;
-    const real d = fmax(distance, R(0.2) * reach);
-    const real ratio2 = reach * reach / (d * d);
-    const real force = p->repulsion * a->density * (ratio2 * ratio2 - ratio2) / d;
-    // n·x + o is the distance: n points into the fluid
-    a->viscous_x += force * plane[0];
-    a->viscous_y += force * plane[1];
-    a->viscous_z += force * plane[2];
-  }
+INLINE void repel(wall_sweep_t* a, __constant const parameters_t* p, __global const real* images) {
+  vector_t force = make_vector(a->viscous_x, a->viscous_y, a->viscous_z);
+  add_repulsion(&force, p, images, a->x, a->y, a->z, a->density);
+  a->viscous_x = force.x;
+  a->viscous_y = force.y;
+  a->viscous_z = force.z;
 }
 #endif
 

@@ -6,6 +6,7 @@
 #define WALL_FORCES 1
 #define BOTH_RATES 0
 #include "momentum_sums.cl"
+#include "owner_region.cl"
 
 // The owner's part of what is missing behind walls. Quadrature may make a part slightly negative.
 INLINE real share_of_owner(const wall_sweep_t* b) {
@@ -65,7 +66,7 @@ INLINE owner_force_t force_on_owner(__constant const parameters_t* p, int i, int
   for (int slot = 0; slot < NEAR_OWNERS; ++slot) b.near_owners[slot] = NO_OWNER;
   take_pair_sums(&b, p, sums, k);
 #if GHOSTS
-  add_repulsion(&b, p, images);
+  repel(&b, p, images);
   f.push = make_vector(b.force_x, b.force_y, b.force_z);
   f.drag = make_vector(-b.viscous_x, -b.viscous_y, -b.viscous_z);
   f.place = make_vector(b.x, b.y, b.z);
@@ -100,20 +101,11 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
   const int item = get_global_id(0);
   if (item >= count) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
-  int k = 0;
-  while (k + 1 < regions && item >= region_values[(k + 1) * REGION_COUNT + REGION_ITEM]) ++k;
-  __global const int* region = region_values + k * REGION_COUNT;
-  const int owner = region[REGION_OWNER];
+  const owner_run_t run = run_of_owner(p, slot_start, item, regions, region_values);
+  const int owner = run.owner, end = run.end;
   __global const real* centre = OWNER_MOTION(wall_motions, owner);
-  const int in_region = item - region[REGION_ITEM];
-  const int run = in_region % region[REGION_RUNS], row = in_region / region[REGION_RUNS];
-  const int first_slot = region[REGION_SLOT_X] + run * REGION_RUN;
-  const int end_slot = min(first_slot + REGION_RUN, region[REGION_END_X]);
-  const int line = p->slots_x * row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
-  const int end = slot_start[line + end_slot];
-  const vector_t nothing = make_vector(R(0.0), R(0.0), R(0.0));
-  vector_t push = nothing, drag = nothing, push_torque = nothing, drag_torque = nothing;
-  for (int first = slot_start[line + first_slot]; first < end; first += TILE_OWN) {
+  wrench_t wrench = {{R(0.0)}};
+  for (int first = run.begin; first < end; first += TILE_OWN) {
     bool touching[TILE_OWN];
     bool any = false;
     for (int own = 0; own < TILE_OWN; ++own) {
@@ -144,16 +136,8 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
       LOOK_THROUGH(walls, a.near, own);
       const owner_force_t f = force_on_owner(p, first + own, own, &sums, state, stride, &walls, images, wall_loads, film, owner);
       const vector_t arm = make_vector(f.place.x - centre[0], f.place.y - centre[1], f.place.z - centre[2]);
-      push = mixed(R(1.0), push, R(1.0), f.push);
-      drag = mixed(R(1.0), drag, R(1.0), f.drag);
-      push_torque = mixed(R(1.0), push_torque, R(1.0), cross3(arm, f.push));
-      drag_torque = mixed(R(1.0), drag_torque, R(1.0), cross3(arm, f.drag));
+      add_to_wrench(&wrench, f.push, f.drag, arm);
     }
   }
-  const vector_t sums[4] = {push, drag, push_torque, drag_torque};
-  for (int part = 0; part < 4; ++part) {
-    wrenches[WRENCH_COUNT * item + 3 * part] = sums[part].x;
-    wrenches[WRENCH_COUNT * item + 3 * part + 1] = sums[part].y;
-    wrenches[WRENCH_COUNT * item + 3 * part + 2] = sums[part].z;
-  }
+  write_wrench(&wrench, item, wrenches);
 }

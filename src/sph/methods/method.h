@@ -19,6 +19,7 @@ struct Method {
   std::vector<FieldRow> fields = {};  ///< beside the common ones, or in the place of one of the same name
   std::vector<ParameterRow> parameters = {};
   std::vector<ReportRow> reports = {};
+  int stored_values = 0;                    ///< of a particle, in the place of gradients
   bool needs_compression_gradient = false;  ///< renormalised, at every state of which the compression's rate is found
   bool needs_velocity_gradient = false;     ///< likewise
   bool needs_strain_rate = false;           ///< likewise, where nothing needs the whole of that
@@ -41,6 +42,7 @@ Method viscosity_of(const Case& scene);
 Method equation_of_state_of(const Case& scene);
 Method turbulence_of(const Case& scene);
 Method shifting_of(const Case& scene);
+Method mls_pressure_of(const Case& scene);
 
 /// Components of gradients that kernels find for them: none, those of the compression, the rate of strain or the velocity's too, γ,
 /// and the eddy viscosity.

@@ -5,8 +5,8 @@
 namespace wavetank {
 
 Methods methods_of(const Case& scene) {
-  return {scheme_of(scene),     density_diffusion_of(scene), viscosity_of(scene), equation_of_state_of(scene),
-          turbulence_of(scene), shifting_of(scene)};
+  return {scheme_of(scene),     density_diffusion_of(scene), viscosity_of(scene),   equation_of_state_of(scene),
+          turbulence_of(scene), shifting_of(scene),          mls_pressure_of(scene)};
 }
 
 namespace {
@@ -18,6 +18,8 @@ bool any_has(const Methods& methods, bool Method::*flag) {
 }  // namespace
 
 int gradient_components(const Methods& methods) {
+  for (const Method& method : methods)
+    if (method.stored_values > 0) return method.stored_values;
   const bool eddies = any_has(methods, &Method::brings_eddy_viscosity);
   if (eddies && any_has(methods, &Method::needs_velocity_gradient)) return 14;
   if (eddies) return 10;
