@@ -42,7 +42,7 @@ Stroke second_order(const WaveCase& wave, const Stroke& first, double k) {
   const double kd = k * wave.depth, over_stroke = wave_over_stroke(k, wave.depth, std::nullopt);
   Stroke second;
   second.amplitude =
-      wave.height * wave.height / (32.0 * wave.depth) * (3.0 * std::cosh(kd) / std::pow(std::sinh(kd), 3) - 2.0 / over_stroke);
+      wave.height * wave.height / (32.0 * wave.depth) * (3.0 / (std::tanh(kd) * std::pow(std::sinh(kd), 2)) - 2.0 / over_stroke);
   second.angular_frequency = 2.0 * first.angular_frequency;
   second.phase = 2.0 * first.phase;
   if (wave.reversed) second.amplitude = -second.amplitude;

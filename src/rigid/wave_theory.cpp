@@ -17,8 +17,10 @@
 namespace wavetank {
 namespace {
 
-constexpr double lowest_frequency = 0.5, highest_frequency = 3.0;  // of a spectrum's peak: 0.2 % of the energy lie beyond
-constexpr double least_share = 1e-3;                               // of the greatest amplitude: less of a record's is left out
+constexpr double lowest_frequency = 0.5, highest_frequency = 3.0;  // of a spectrum's peak: some 1 % of the energy lies beyond
+constexpr double least_share = 1e-3;                               // of the greatest amplitude: less of a record's is left out,
+constexpr double highest_recorded = 5.0;                           // and what is beyond so many times its frequency
+constexpr std::size_t fewest_lines = 8;                            // of a record
 
 /// In [0, 1), of the generator's own bits: what distributions make of them is each library's choice.
 double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
@@ -62,6 +64,9 @@ std::vector<WaveComponent> recorded_components(const WaveCase& wave, double grav
   const std::vector<double> values = file.numbers(wave.record.column);
   const double duration = times.back() - times.front();
   const std::size_t count = times.size();
+  if (count < fewest_lines)
+    throw Error(file.place(0) + ": it has " + std::to_string(count) + " lines of elevations; it must have " + std::to_string(fewest_lines) +
+                " at least");
   std::vector<double> even(count);
   std::size_t k = 1;
   double mean = 0;
@@ -72,7 +77,9 @@ std::vector<WaveComponent> recorded_components(const WaveCase& wave, double grav
     even[i] = wave.record.factor * (values[k - 1] + share * (values[k] - values[k - 1]));
     mean += even[i] / static_cast<double>(count);
   }
-  for (double& value : even) value -= mean;
+  // the sum repeats itself: a jump from the end to the beginning would be of all frequencies
+  const double rise = wave.record.factor * (values.back() - values.front());
+  for (std::size_t i = 0; i < count; ++i) even[i] -= mean + rise * (static_cast<double>(i) / static_cast<double>(count) - 0.5);
   std::vector<std::complex<double>> transform;
   Eigen::FFT<double>().fwd(transform, even);
   std::vector<WaveComponent> all;
@@ -90,9 +97,12 @@ std::vector<WaveComponent> recorded_components(const WaveCase& wave, double grav
     all.push_back(component);
   }
   if (!(greatest > 0)) throw Error(file.place(0) + ": the surface does not move in it");
+  const WaveComponent& peak =
+      *std::max_element(all.begin(), all.end(), [](const WaveComponent& a, const WaveComponent& b) { return a.amplitude < b.amplitude; });
   std::vector<WaveComponent> components;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(components),
-               [&](const WaveComponent& component) { return component.amplitude >= least_share * greatest; });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(components), [&](const WaveComponent& component) {
+    return component.amplitude >= least_share * greatest && component.angular_frequency <= highest_recorded * peak.angular_frequency;
+  });
   return components;
 }
 
@@ -118,10 +128,14 @@ double wave_number(double angular_frequency, double depth, double gravity) {
 }
 
 double wave_over_stroke(double wave_number, double depth, const std::optional<double>& hinge) {
-  const double kd = wave_number * depth;
-  double paddle = std::sinh(kd);  // ∫ k f cosh ks ds over the depth, of the paddle's displacement f, 1 at the still level
-  if (hinge) paddle -= (std::cosh(kd) - std::cosh(wave_number * std::max(*hinge, 0.0))) / (wave_number * (depth - *hinge));
-  return 4.0 * std::sinh(kd) * paddle / (std::sinh(2.0 * kd) + 2.0 * kd);
+  // all times e^−kd, so that nothing overflows in deep water
+  const double kd = wave_number * depth, once = std::exp(-2.0 * kd), sinh = 0.5 * (1.0 - once);
+  const auto cosh = [&](double height) {  // of k times a height over the floor
+    return 0.5 * (std::exp(wave_number * (height - depth)) + std::exp(-wave_number * (height + depth)));
+  };
+  double paddle = sinh;  // ∫ k f cosh ks ds over the depth, of the paddle's displacement f, 1 at the still level
+  if (hinge) paddle -= (cosh(depth) - cosh(std::max(*hinge, 0.0))) / (wave_number * (depth - *hinge));
+  return 4.0 * sinh * paddle / (0.5 * (1.0 - once * once) + 2.0 * kd * once);
 }
 
 double jonswap_shape(double frequency, double peak_frequency, double peak_enhancement) {

@@ -159,6 +159,17 @@ void check_least_squares(const Case& read, const Setting& root) {
           std::string(word_of(friction)) + ", and " + chosen + ", whose walls have viscous friction or none; choose one of these");
 }
 
+// What a tank cannot do with its waves.
+void check_waves(const Case& read, const Setting& root) {
+  if (read.tank.rigid.prescribed.waves)
+    clash(root, "tank/prescribed/waves", "given, but waves are made by a body, not by the tank; give them to a body");
+  if (!read.fluid.damping.empty() && read.tank.motion == Motion::free)
+    clash(root, "fluid/damping", "given, and tank/motion is free; a free tank does not feel what the zones take: leave one of them out");
+  const bool any =
+      std::any_of(read.bodies.begin(), read.bodies.end(), [](const BodyCase& body) { return body.rigid.prescribed.waves.has_value(); });
+  if (any && read.gravity.isZero(0.0)) clash(root, "gravity", "zero, without which there are no waves; give some");
+}
+
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
 void check_periodic(const Case& read, const Setting& root) {
   const TankCase& tank = read.tank;
@@ -266,6 +277,7 @@ void check_case(const Case& read, const Setting& root) {
   for (std::size_t b = 0; b < read.bodies.size(); ++b)
     check_friction(read, root, read.bodies[b].skin_friction, join_path(join_path("bodies", b), "skin_friction"));
   check_periodic(read, root);
+  check_waves(read, root);
   check_levels(read, root);
   check_joints(read, root);
   if (read.numerics.acoustic_damping > 0 && read.numerics.integrator != Integrator::symplectic)

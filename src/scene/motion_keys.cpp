@@ -115,6 +115,10 @@ Section<PrescribedCase> prescribed_section() {
   section.key("records", &PrescribedCase::records, list_of(record_section()), "", "Motions from files, joined by a cubic spline.");
   section.key("waves", &PrescribedCase::waves, section_if_given(wave_section()), "", "The motion of a paddle that makes waves by theory.");
   section.rule(check_plane);
+  section.rule([](const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context&) {
+    if (prescribed.waves && is_rotation(prescribed.waves->direction) && !prescribed.point)
+      refuse_key(map, path, "point", "is missing; a flap that makes waves needs it: its hinge");
+  });
   return section;
 }
 

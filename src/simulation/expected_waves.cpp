@@ -11,9 +11,10 @@
 namespace wavetank {
 namespace {
 
-constexpr double fewest_over_height = 8;  // spacings
-constexpr double greatest_ursell = 26;    // beyond it a second-order wave has crests of its own in its troughs
-constexpr double depth_tolerance = 0.03;  // of the depth
+constexpr double fewest_over_height = 8;   // spacings
+constexpr double greatest_ursell = 26;     // beyond it a second-order wave has crests of its own in its troughs
+constexpr double greatest_of_a_sea = 1.9;  // of a thousand waves, over the significant one
+constexpr double depth_tolerance = 0.03;   // of the depth
 
 /// Where the waves go: a unit vector along the floor.
 Vector3d way_of(const WaveCase& wave, const PrescribedCase& prescribed, const Vector3d& up) {
@@ -27,13 +28,14 @@ Vector3d way_of(const WaveCase& wave, const PrescribedCase& prescribed, const Ve
 /// The farthest corner of a box along a direction, m.
 double farthest(const Box& box, const Vector3d& way) { return way.cwiseMax(0.0).dot(box.max) + way.cwiseMin(0.0).dot(box.min); }
 
-double water_depth(const Layout& layout) {
+/// Level and floor, m along `up`.
+std::pair<double, double> water_of(const Layout& layout) {
   double top = layout.up.dot(layout.particles.front()), bottom = top;
   for (std::size_t i = 0; i < layout.particles.size(); ++i) {
     top = std::max(top, layout.levels[i]);
     bottom = std::min(bottom, layout.up.dot(layout.particles[i]) - 0.5 * layout.spacing);
   }
-  return top - bottom;
+  return {top, bottom};
 }
 
 }  // namespace
@@ -72,15 +74,21 @@ void tell_of_waves(const Case& checked, const Layout& layout, const ResourceReso
     if (wave.kind == WaveKind::regular && facts.ursell > greatest_ursell)
       warn("have an Ursell number of " + number(facts.ursell) + ": beyond " + number(greatest_ursell) +
            " neither first- nor second-order theory holds, and they change on their way");
-    const double stroke = wave.kind == WaveKind::solitary ? facts.stroke : 0.5 * facts.stroke;
-    const double back = wave.kind == WaveKind::solitary ? 0.0 : 0.5 * facts.stroke;
+    const bool is_sea = wave.kind == WaveKind::irregular || wave.kind == WaveKind::record;
+    const double half = 0.5 * (is_sea ? greatest_of_a_sea : 1.0) * facts.stroke;
+    const double stroke = wave.kind == WaveKind::solitary ? facts.stroke : half, back = wave.kind == WaveKind::solitary ? 0.0 : half;
     if (stroke > waves.to_end || back > waves.behind)
       warn("take a stroke of " + number(facts.stroke) + " m, which carries the paddle out of the tank: there are " + number(waves.to_end) +
            " m before it and " + number(waves.behind) + " m behind");
     if (layout.particles.empty()) continue;
-    const double depth = water_depth(layout);
+    const auto [level, floor] = water_of(layout);
+    const double depth = level - floor;
     if (std::abs(depth - wave.depth) > depth_tolerance * wave.depth)
       warn("are made for a depth of " + number(wave.depth) + " m, but the water is " + number(depth) + " m deep");
+    if (wave.direction != Direction::pitch && wave.direction != Direction::angle) continue;
+    const double hinge = layout.up.dot(*body->rigid.prescribed.point) - floor;
+    if (std::abs(hinge - wave.hinge) > depth_tolerance * wave.depth)
+      warn("are made for a hinge " + number(wave.hinge) + " m over the floor, but prescribed/point is " + number(hinge) + " m over it");
   }
 }
 

@@ -124,7 +124,7 @@ std::vector<double> shape_of_profile(const OpeningCase& given, const Opening& op
                   number(place.z()) + ") m is " + number(shape[c]) + "; it must be finite and at least 0");
   }
   if (*std::max_element(shape.begin(), shape.end()) <= 0)
-    throw Error("opening '" + opening.name + "': its profile is 0 wherever water comes in");
+    throw Error("opening '" + opening.name + "': its profile is 0 wherever water passes");
   return shape;
 }
 

@@ -119,6 +119,7 @@ OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discre
   returned_by_.resize(openings_.size());
   for (std::size_t o = 0; o < openings_.size(); ++o) {
     shapes_.push_back(shape_of_profile(cases_[o], openings_[o]));
+    fastest_of_one_.push_back(fastest_of_discharge(cases_[o], openings_[o], 1.0));
     any_moves_ = any_moves_ || layout.moving[openings_[o].owner];
     for (std::size_t other = 0; other < openings_.size(); ++other)
       if (cases_[other].returns_to == cases_[o].name) returned_by_[o].push_back(other);
@@ -288,7 +289,7 @@ double OpeningFlows::returned_discharge(std::size_t o) {
     behind -= smooth_volume(by);
   }
   discharge += behind * usual_of_sound * sound_speed_ / (slow_return * openings_[o].pocket);
-  const double most = fastest_of_sound * sound_speed_ / fastest_of_discharge(cases_[o], openings_[o], 1.0);
+  const double most = fastest_of_sound * sound_speed_ / fastest_of_one_[o];
   if (discharge > most && !told_of_return_) {
     told_of_return_ = true;
     log(LogLevel::warning, "opening '" + openings_[o].name + "' is to bring back " + number(discharge) +

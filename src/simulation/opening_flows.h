@@ -117,6 +117,7 @@ class OpeningFlows {
   std::vector<Opening> openings_;
   std::vector<FlowLaw> laws_;
   std::vector<Vector3d> references_;
+  std::vector<double> fastest_of_one_;                 ///< m/s, of a discharge of 1 m³/s by each opening
   std::vector<std::vector<double>> shapes_;            ///< of each opening's profile
   std::vector<std::vector<std::size_t>> returned_by_;  ///< of each opening those that return to it
   std::vector<std::size_t> in_order_;                  ///< those that others return to last

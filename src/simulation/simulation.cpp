@@ -61,18 +61,34 @@ void tell_of_thin_walls(const Case& scene, const Discretisation& discretisation,
                           " m: it is taken for a thin plate, through which the water on one side does not feel that on the other.");
 }
 
-/// A zone would hold a body, and the body the water, without a word about the force.
+bool meet(const Box& a, const Box& b, int dimensions) {
+  for (int axis = 0; axis < 3; ++axis)
+    if ((dimensions == 3 || axis != 1) && !(a.min[axis] < b.max[axis] && a.max[axis] > b.min[axis])) return false;
+  return true;
+}
+
+/// A zone would hold a body, and the body the water, without a word about the force; and what is behind an opening moves as that has it.
 void check_damping_zones(const Case& scene, const Layout& layout) {
   for (std::size_t k = 0; k < scene.fluid.damping.size(); ++k) {
     const Box& zone = scene.fluid.damping[k].box;
+    const std::string what = "fluid/damping/" + std::to_string(k) + "/box ";
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
       const Box body = layout.meshes[b + 1].bounding_box();
-      bool meets = true;
-      for (int axis = 0; axis < 3; ++axis)
-        if (scene.dimensions == 3 || axis != 1) meets = meets && body.min[axis] < zone.max[axis] && body.max[axis] > zone.min[axis];
-      if (meets)
-        throw Error("fluid/damping/" + std::to_string(k) + "/box lies over body '" + scene.bodies[b].name + "', from " + point(body.min) +
-                    " to " + point(body.max) + " m; a zone must not: move one of them");
+      if (meet(zone, body, scene.dimensions))
+        throw Error(what + "lies over body '" + scene.bodies[b].name + "', from " + point(body.min) + " to " + point(body.max) +
+                    " m; a zone must not: move one of them");
+    }
+    for (const Opening& opening : layout.openings) {
+      Box pocket{opening.centre, opening.centre};
+      for (const Vector3d& corner : opening.outline)
+        for (const double depth : {1e-3 * layout.spacing, opening.pocket}) {
+          const Vector3d place = corner - depth * opening.normal;
+          pocket.min = pocket.min.cwiseMin(place);
+          pocket.max = pocket.max.cwiseMax(place);
+        }
+      if (meet(zone, pocket, scene.dimensions))
+        throw Error(what + "reaches behind opening '" + opening.name +
+                    "', where the water moves as that has it; end it before the opening");
     }
   }
 }
@@ -123,7 +139,6 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
             for (const OpeningState& state : openings.states()) flows.push_back({state.discharge, state.volume});
             return flows;
           }) {
-  check_damping_zones(scene, layout);
   tell_of_noise(scene);
   tell_of_waves(scene, layout, options.resolve);
   tell_of_shallow_water(layout);
@@ -138,6 +153,7 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
 Layout Simulation::Parts::laid_out(const Case& checked) const {
   progress("laying out", 0.0);
   Layout result = lay_out(checked, options.resolve);
+  check_damping_zones(checked, result);
   progress("laying out", 1.0);
   return result;
 }

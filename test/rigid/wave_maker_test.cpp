@@ -54,6 +54,8 @@ TEST(WaveTheory, PaddlesMakeWhatIsKnownOfLongAndShortWaves) {
   EXPECT_NEAR(wave_over_stroke(0.01 / depth, depth, 0.0) / 0.01, 0.5, 1e-4);
   EXPECT_NEAR(wave_over_stroke(30 / depth, depth, std::nullopt), 2.0, 1e-9);
   EXPECT_NEAR(wave_over_stroke(30 / depth, depth, 0.0), 2.0 * (1 - 1.0 / 30), 1e-9);
+  EXPECT_NEAR(wave_over_stroke(1000 / depth, depth, std::nullopt), 2.0, 1e-9);
+  EXPECT_NEAR(wave_over_stroke(1000 / depth, depth, 0.1), 2.0 * (1 - 1.0 / 750), 1e-9);
   // a hinge far below is a piston's, and one between changes sides with the depth that moves
   EXPECT_NEAR(wave_over_stroke(2.5, depth, -1e6), wave_over_stroke(2.5, depth, std::nullopt), 1e-6);
   // 4 sinh kd/(sinh 2kd + 2kd) · ∫ k (s − b)/(d − b) cosh ks ds from the hinge b to d, by Simpson's rule
@@ -102,8 +104,8 @@ TEST(WaveTheory, CrestsOfAFocusedWaveMeet) {
   EXPECT_NEAR(elevation(components, wave.focus.distance, wave.focus.time), 0.12, 1e-12);
   double elsewhere = 0;
   for (double time = 0; time < 60; time += 0.01)
-    if (std::abs(time - wave.focus.time) > 0.05) elsewhere = std::max(elsewhere, elevation(components, wave.focus.distance, time));
-  EXPECT_LT(elsewhere, 0.12);
+    if (std::abs(time - wave.focus.time) > 0.3) elsewhere = std::max(elsewhere, elevation(components, wave.focus.distance, time));
+  EXPECT_LT(elsewhere, 0.1);
 }
 
 struct WaveRecord : testing::Test {
@@ -127,6 +129,9 @@ TEST_F(WaveRecord, IsSeenAgainWhereItWasTaken) {
   EXPECT_LT(components.size(), 40u);
   for (double time = 6; time < 20; time += 0.37) EXPECT_NEAR(elevation(components, 2.5, time - 1), surface(time), 1e-3) << time;
   scratch.write("waves.csv", "t,eta_mm\n0,1\n1,1\n2,1\n");
+  EXPECT_NE(error_of([&] { wave_components(wave, gravity, scratch.file("waves.csv"), "body 'paddle'"); }).find("has 3 lines of elevations"),
+            std::string::npos);
+  scratch.write("waves.csv", "t,eta_mm\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n");
   EXPECT_NE(
       error_of([&] { wave_components(wave, gravity, scratch.path() / "waves.csv", "body 'paddle'"); }).find("the surface does not move"),
       std::string::npos);

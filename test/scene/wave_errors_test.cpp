@@ -10,7 +10,7 @@ fluid:
   spacing: 0.05
   fill: [{box: {min: [0.2, 0], max: [6, 0.4]}}]
   damping:
-    - {box: {min: [4, 0], max: [6, 1]}, direction: [1, 0], strength: 8}
+    - {box: {min: [4, 0], max: [6, 1]}, direction: [1, 0], strength: 8, velocity: [0.1, 0]}
 tank:
   box: {size: [6, 1]}
 bodies:
@@ -18,6 +18,7 @@ bodies:
     box: {min: [0.1, 0], max: [0.2, 0.8]}
     motion: prescribed
     prescribed:
+      point: [0.1, 0]
       waves: {kind: regular, depth: 0.4, height: 0.05, period: 1.2}
 )";
 
@@ -33,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NoKind", "kind: regular, ", "", {"bodies/0/prescribed/waves/kind is missing"}},
         Fault{"NoDepth", "depth: 0.4, ", "", {"bodies/0/prescribed/waves/depth is missing"}},
         Fault{
-            "NoHeight", "height: 0.05, ", "", {"case.yaml:15: bodies/0/prescribed/waves/height is missing; waves of kind regular need it"}},
+            "NoHeight", "height: 0.05, ", "", {"case.yaml:16: bodies/0/prescribed/waves/height is missing; waves of kind regular need it"}},
         Fault{"FlatWaves", "height: 0.05", "height: 0", {"bodies/0/prescribed/waves/height is 0; it must be greater than 0 (m)"}},
         Fault{"KeyOfAnotherKind",
               "period: 1.2",
@@ -51,6 +52,19 @@ INSTANTIATE_TEST_SUITE_P(
               regular,
               "{kind: record, depth: 0.4, record: {file: /no/such/waves.csv}}",
               {"bodies/0/prescribed/waves/record/file: wave record file '/no/such/waves.csv' does not exist"}},
+        Fault{"FlapWithoutAPoint",
+              "      point: [0.1, 0]\n      waves: {kind: regular, depth: 0.4, height: 0.05, period: 1.2",
+              "      waves: {kind: regular, depth: 0.4, height: 0.05, period: 1.2, direction: pitch",
+              {"bodies/0/prescribed/point is missing; a flap that makes waves needs it"}},
+        Fault{"WavesOfTheTank",
+              "  box: {size: [6, 1]}",
+              "  box: {size: [6, 1]}\n  motion: prescribed\n  prescribed: {waves: {kind: regular, depth: 0.4, height: 0.05, period: 1.2}}",
+              {"tank/prescribed/waves is given, but waves are made by a body"}},
+        Fault{"ZonesOfAFreeTank",
+              "  box: {size: [6, 1]}",
+              "  box: {size: [6, 1]}\n  motion: free\n  mass: 100",
+              {"fluid/damping is given, and tank/motion is free"}},
+        Fault{"NoGravity", "duration: 2", "duration: 2\ngravity: [0, 0]", {"gravity is zero, without which there are no waves"}},
         Fault{"NoStrength", ", strength: 8", "", {"fluid/damping/0/strength is missing"}},
         Fault{"NoDirection", "direction: [1, 0]", "direction: [0, 0]", {"fluid/damping/0/direction is [0, 0, 0]; it must be a direction"}},
         Fault{"InsideOut",
@@ -66,10 +80,26 @@ TEST(Waves, AreReadAndWritten) {
         std::string(
             "{kind: focused, depth: 0.4, height: 0.1, peak_period: 1.5, focus: {distance: 3, time: 12}, spectrum: pierson_moskowitz}"),
         std::string("{kind: solitary, depth: 0.4, height: 0.1, reversed: true}"),
-        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, direction: pitch, hinge: -0.2}")}) {
+        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, direction: pitch, hinge: -0.2}"),
+        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, order: 2}")}) {
     const Case read = read_case_text(replaced(sound, regular, waves), "case.yaml", {});
     ASSERT_TRUE(read.bodies[0].rigid.prescribed.waves) << waves;
-    EXPECT_EQ(write_case(read_case_text(write_case(read), "again.yaml", {})), write_case(read)) << waves;
+    const Case again = read_case_text(write_case(read), "again.yaml", {});
+    EXPECT_EQ(write_case(again), write_case(read)) << waves;
+    const WaveCase &first = *read.bodies[0].rigid.prescribed.waves, &second = *again.bodies[0].rigid.prescribed.waves;
+    EXPECT_EQ(second.kind, first.kind);
+    EXPECT_EQ(second.direction, first.direction);
+    EXPECT_EQ(second.reversed, first.reversed);
+    EXPECT_EQ(second.order, first.order);
+    EXPECT_EQ(second.seed, first.seed);
+    EXPECT_EQ(second.rise, first.rise);
+    EXPECT_EQ(second.hinge, first.hinge);
+    EXPECT_EQ(second.spectrum, first.spectrum);
+    EXPECT_EQ(second.focus.time, first.focus.time);
+    EXPECT_EQ(second.focus.distance, first.focus.distance);
+    EXPECT_EQ(second.record.file, first.record.file);
+    EXPECT_EQ(second.record.distance, first.record.distance);
+    EXPECT_EQ(again.fluid.damping[0].velocity, Vector3d(0.1, 0, 0));
   }
   const Case read = read_case_text(sound, "case.yaml", {});
   const WaveCase& wave = *read.bodies[0].rigid.prescribed.waves;
@@ -78,7 +108,6 @@ TEST(Waves, AreReadAndWritten) {
   EXPECT_FALSE(wave.rise);
   ASSERT_EQ(read.fluid.damping.size(), 1u);
   EXPECT_EQ(read.fluid.damping[0].strength, 8);
-  EXPECT_EQ(read.fluid.damping[0].velocity, Vector3d::Zero());
 }
 
 }  // namespace

@@ -481,7 +481,7 @@ TEST_F(Openings, HaveAProfileWhereWaterComesIn) {
   run_steps(simulation, 5);
   EXPECT_NEAR(simulation.openings()[0].discharge, 0.4 * depth, 1e-6);
   scene.openings[0].profile = "max(z - 0.4, 0)";
-  EXPECT_NE(error_of([&] { Simulation again(scene); }).find("its profile is 0 wherever water comes in"), std::string::npos);
+  EXPECT_NE(error_of([&] { Simulation again(scene); }).find("its profile is 0 wherever water passes"), std::string::npos);
 }
 
 TEST_F(Openings, CarriedOutOfTheTankEndTheRun) {

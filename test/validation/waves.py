@@ -4,8 +4,9 @@
 waves.py WAVETANK_RUN DIRECTORY [PERIOD,HEIGHT,SPACING,ORDER]...
 
 Water 0.4 m deep, a flume of three wavelengths and a damping zone of one and a quarter more. Gauges an eighth of a wavelength apart from one wavelength on; of
-their records from the time at which the waves are there the harmonics of the period, by least squares over whole periods. Told are the height (twice the first
-harmonic's amplitude, mean over the gauges), the loss of it a wavelength, the wavelength that its phases have, the reflected wave, and of the second harmonic
+their records from the time at which the waves are there the harmonics of the period, by least squares over whole periods. Told are the height (twice the amplitude of the
+first harmonic that comes, fitted over the gauges), the loss of it a wavelength, the wavelength that its phases have over that of linear theory and of Stokes' third order for the
+height found, the reflected wave, and of the second harmonic
 what travels by itself. Prints a table."""
 
 import math
@@ -28,10 +29,22 @@ def wave_number(omega):
     return k
 
 
+def third_order(omega, amplitude):
+    """The wave number of a wave of finite height (Stokes, third order): ω² = g k tanh kd (1 + (ka)² (8 + cosh 4kd − 2 tanh² kd)/(8 sinh⁴ kd))."""
+    k = wave_number(omega)
+    for _ in range(200):
+        kd = k * DEPTH
+        growth = 1 + (k * amplitude) ** 2 * (8 + math.cosh(4 * kd) - 2 * math.tanh(kd) ** 2) / (8 * math.sinh(kd) ** 4)
+        k = 0.5 * (k + omega**2 / (GRAVITY * math.tanh(kd) * growth))
+    return k
+
+
 def case_of(period, height, spacing, order):
     length = 2 * math.pi / wave_number(2 * math.pi / period)
     end = FACE + 4.25 * length
-    travel = 3 * length / (0.5 * length / period)  # by the group's speed, which is half the wave's at the least
+    twice = wave_number(4 * math.pi / period)
+    slowest = (2 * math.pi / period / twice) * (1 + 2 * twice * DEPTH / math.sinh(2 * twice * DEPTH))  # the group's speed of free second harmonics
+    travel = 2.625 * length / slowest + period
     gauges = [FACE + length * (1 + k / 8) for k in range(14)]
     case = {
         "title": "regular waves",
@@ -97,6 +110,7 @@ def measured(times, levels, gauges, period):
     return {
         "height": 2 * abs(waves[0]),
         "length": k / k_found - 1,
+        "length of third order": third_order(omega, abs(waves[0])) / k_found - 1,
         "loss": decay,
         "reflected": abs(waves[1] / waves[0]),
         "free": 2 * abs(twice[1]),
@@ -105,7 +119,7 @@ def measured(times, levels, gauges, period):
 
 def main(program, directory, cases):
     os.makedirs(directory, exist_ok=True)
-    print("| T, s | H, m | order | Δx, m | height | wavelength | loss a wavelength | reflected | free second harmonic |\n|---|---|---|---|---|---|---|---|---|")
+    print("| T, s | H, m | order | Δx, m | height | wavelength over linear | over third-order theory | loss a wavelength | reflected | free second harmonic |\n|---|---|---|---|---|---|---|---|---|---|")
     for text in cases:
         period, height, spacing, order = (float(number) for number in text.split(","))
         base = os.path.join(directory, "waves_" + text.replace(",", "_"))
@@ -118,7 +132,7 @@ def main(program, directory, cases):
         times, levels = levels_of(base + ".bag")
         found = measured(times, levels, gauges, period)
         print(
-            "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% |"
+            "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% |"
             % (
                 period,
                 height,
@@ -126,6 +140,7 @@ def main(program, directory, cases):
                 spacing,
                 100 * (found["height"] / height - 1),
                 100 * found["length"],
+                100 * found["length of third order"],
                 100 * found["loss"],
                 100 * found["reflected"],
                 100 * found["free"] / height,

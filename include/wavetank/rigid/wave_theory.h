@@ -27,7 +27,7 @@ struct WaveComponent {
 };
 
 /// Those of regular, irregular and focused waves and of a record, whose file is at `path`. Throws Error for numbers that make no waves and,
-/// as PrescribedMotion, for a record that cannot be read. The same case gives the same bits whatever compiled this.
+/// as PrescribedMotion, for a record that cannot be read. What is random in them follows from the seed alone, whatever compiled this.
 std::vector<WaveComponent> wave_components(const WaveCase& wave, double gravity, const std::string& record_path, const std::string& what);
 
 /// What to expect of waves, by linear theory; of a sea, of a wave of its significant height and peak period.
