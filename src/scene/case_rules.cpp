@@ -146,13 +146,14 @@ void check_least_squares(const Case& read, const Setting& root) {
   if (numerics.negative_pressure == NegativePressure::allowed && has_weight(read))
     clash(root, "numerics/negative_pressure", "allowed, with which water that has weight flies apart where " + chosen + "; choose clamped");
   const WallCase& walls = numerics.walls;
+  if (numerics.mls.pressure == MlsPressure::adjoint && !closed &&
+      (walls.method != WallMethod::ghost || numerics.gradients != Gradients::mls))
+    clash(root, "numerics/mls/pressure",
+          "adjoint, with which water rests only where numerics/gradients is mls and numerics/walls/method is ghost; choose sum");
   if (walls.method == WallMethod::ghost) return;
   if (walls.elements != WallElements::facet)
     clash(root, "numerics/walls/elements",
           "not facet, and " + chosen + ", whose images of the water go by facets; leave it out, or choose facet");
-  if (numerics.mls.pressure == MlsPressure::adjoint && !closed)
-    clash(root, "numerics/mls/pressure",
-          "adjoint, with which water does not rest on boundary integrals; choose sum, or set numerics/walls/method to ghost");
   const FrictionLaw friction = walls.friction.law;
   if (friction != FrictionLaw::viscous && friction != FrictionLaw::none && walls.slip == Slip::no_slip)
     clash(root, "numerics/walls/friction/law",
