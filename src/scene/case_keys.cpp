@@ -230,7 +230,7 @@ std::string meanings(const std::string& subject) {
 Section<LeastSquaresCase> least_squares_section() {
   Section<LeastSquaresCase> section;
   section.key("pressure", &LeastSquaresCase::pressure, method<MlsPressure>(), "", meanings<MlsPressure>("Form of the pressure's gradient"));
-  section.key("pivot", &LeastSquaresCase::pivot, number(between(0, 1)), "",
+  section.key("pivot", &LeastSquaresCase::pivot, number(between(1e-6, 0.2)), "",
               "Where less than this part of a basis function is not explained by those before it, the fit is of first order.");
   section.key("support", &LeastSquaresCase::support, number_or_auto(between(2, 8)), "Δx",
               "Radius R_m within which neighbours count, no more than `numerics/support`; `auto` is 3.4 in 2-D and 2.6 in 3-D.");

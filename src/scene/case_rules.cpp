@@ -127,8 +127,11 @@ void check_least_squares(const Case& read, const Setting& root) {
     clash(root, "numerics/viscosity_model",
           word_of(numerics.viscosity_model) + ", a sum of SPH, and " + chosen +
               ", whose viscosity is the Laplacian of the fit; leave it out");
-  if (numerics.mls.support && numerics.support && *numerics.mls.support > *numerics.support)
-    clash(root, "numerics/mls/support", "greater than numerics/support, within which neighbours are looked for; make it no greater");
+  const double support = numerics.support.value_or(read.dimensions == 2 ? 4.0 : 3.0);
+  if (numerics.mls.support && *numerics.mls.support > support)
+    clash(
+        root, "numerics/mls/support",
+        "greater than numerics/support, " + number_text(support) + " spacings, within which neighbours are looked for; make it no greater");
   if (numerics.acoustic_damping > 0)
     clash(root, "numerics/acoustic_damping", "above 0, with which water does not rest where " + chosen + "; set it to 0, or leave it out");
   if (!read.bodies.empty())

@@ -127,6 +127,21 @@ Case column_about_plate(int dimensions) {
 TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn2D) { compare(column_about_plate(2), {16}, 2e-6); }
 TEST(Tiling, DoesNotChangeWhatIsSeenPastAThinPlateIn3D) { compare(column_about_plate(3), {16}, 2e-6); }
 
+/// A sheet three particles thick along a wall: rows of slots end within a tile's width.
+Case sheet_of_least_squares(int dimensions, Gradients gradients) {
+  Case scene = column(dimensions, Precision::single, false);
+  scene.bodies.clear();
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(3 * *scene.fluid.spacing, dimensions == 3 ? 0.4 : 0.0, 0.32)}};
+  scene.numerics.support = 4;
+  scene.numerics.gradients = gradients;
+  scene.numerics.artificial_viscosity = 0.1;
+  return scene;
+}
+
+TEST(Tiling, DoesNotChangeTheFitsOfASheetAtAWallIn2D) { compare(sheet_of_least_squares(2, Gradients::mls_corrected), {4, 16}, 1e-5); }
+TEST(Tiling, DoesNotChangeTheFitsOfASheetAtAWallIn3D) { compare(sheet_of_least_squares(3, Gradients::mls_corrected), {16}, 1e-5); }
+TEST(Tiling, DoesNotChangeDerivativesByTheFit) { compare(sheet_of_least_squares(2, Gradients::mls), {16}, 1e-5); }
+
 TEST(Tiling, DoesNotChangeTheSumsAsOnAGpu) {
   const Case scene = column(3, Precision::single, false);
   expect_same(outcome(disguised(1, false), scene), outcome(disguised(1, true), scene), 2e-6);

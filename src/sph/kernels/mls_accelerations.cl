@@ -21,7 +21,7 @@ INLINE void find_rates_of_tile(__constant const parameters_t* p, int first, int 
   fit_t fit;
   fit_of_tile(&a, p, first, &fit);
   derivatives_t found;
-  differentiate(&a, p, &fit, &found);
+  differentiate(&a, p, &fit, &found, found.divergence);
 #if WITH_COMPRESSION
   continuity_sums_t sums;
 #if DENSITY_DIFFUSION

@@ -99,7 +99,7 @@ INLINE void add_seen(sweep_t* a, __constant const parameters_t* p, int j, const 
 #endif
     add_to_moments(&a->moments, weight, b);
 #endif
-#if WALL_FORCES
+#if WALL_FORCES && !MLS_DIRECT
   if (a->fitting) return;
 #endif
 #if NEEDS_VELOCITIES
@@ -112,6 +112,9 @@ INLINE void add_seen(sweep_t* a, __constant const parameters_t* p, int j, const 
   const tile wv = weight * seen->relative.y;
   for (int l = 0; l < BASIS; ++l) a->velocity[1][l] += wv * b[l];
 #endif
+#endif
+#if WALL_FORCES && MLS_DIRECT
+  if (a->fitting) return;  // the whole velocity's divergence is wanted, which switches a viscosity on
 #endif
 #if WITH_ACCELERATIONS || SPREADS
   const tile slope = mls_slopes(p, distance) * seen->volume;
@@ -186,7 +189,8 @@ INLINE void add_image(sweep_t* a, __constant const parameters_t* p, int j, const
   seen.rx = original->rx + depth * nx;
   seen.ry = original->ry + depth * ny;
   seen.rz = original->rz + depth * nz;
-  seen.r2 = seen.rx * seen.rx + seen.ry * seen.ry + seen.rz * seen.rz;
+  // no image is nearer than its original; and what lies past the end of a run of candidates is far by the original's distance alone
+  seen.r2 = fmax(seen.rx * seen.rx + seen.ry * seen.ry + seen.rz * seen.rz, original->r2);
   seen.volume = original->volume * counts;
 #if WITH_ACCELERATIONS
   const tile density = p->density * (R(1.0) + near_field(&a->near, FIELD_COMPRESSION, j));
@@ -293,13 +297,22 @@ typedef struct {
 #endif
 } derivatives_t;
 
-INLINE void differentiate(const sweep_t* a, __constant const parameters_t* p, const fit_t* fit, derivatives_t* d) {
-  own_t velocity[DIMENSIONS][BASIS];
+INLINE void velocities_of(const sweep_t* a, own_t velocity[DIMENSIONS][BASIS]) {
   for (int axis = 0; axis < DIMENSIONS; ++axis)
     for (int l = 0; l < BASIS; ++l) velocity[axis][l] = own_total(a->velocity[DIMENSIONS == 3 ? axis : 2 * axis][l]);
-  own_t divergence = row_times(fit->row[0], velocity[0]);
-  for (int axis = 1; axis < DIMENSIONS; ++axis) divergence += row_times(fit->row[axis], velocity[axis]);
-  own_lanes(divergence, d->divergence);
+}
+
+INLINE void divergence_of(const fit_t* fit, own_t velocity[DIMENSIONS][BASIS], real* divergence) {
+  own_t sum = row_times(fit->row[0], velocity[0]);
+  for (int axis = 1; axis < DIMENSIONS; ++axis) sum += row_times(fit->row[axis], velocity[axis]);
+  own_lanes(sum, divergence);
+}
+
+// `compressing`: the divergence that switches the artificial viscosity on.
+INLINE void differentiate(const sweep_t* a, __constant const parameters_t* p, const fit_t* fit, derivatives_t* d, const real* compressing) {
+  own_t velocity[DIMENSIONS][BASIS];
+  velocities_of(a, velocity);
+  divergence_of(fit, velocity, d->divergence);
 #if WITH_ACCELERATIONS
   own_t force[BASIS];
   for (int l = 0; l < BASIS; ++l) force[l] = own_total(a->force[l]);
@@ -335,7 +348,7 @@ INLINE void differentiate(const sweep_t* a, __constant const parameters_t* p, co
 #endif
     real viscosity = p->mls_viscosity;
 #if MLS_DIRECT
-    if (d->divergence[k] < R(0.0)) viscosity += p->mls_artificial * (R(0.5) / (DIMENSIONS + R(2.0)));  // as much as α means in a pair
+    if (compressing[k] < R(0.0)) viscosity += p->mls_artificial * (R(0.5) / (DIMENSIONS + R(2.0)));  // as much as α means in a pair
 #endif
     const bool whole = fit->level[k] == FIT_WHOLE;
     const real by_morris = R(2.0) * p->mls_slope_scale;

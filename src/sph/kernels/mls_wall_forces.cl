@@ -58,14 +58,22 @@ __kernel void wall_forces(__constant const parameters_t* p, int count, __global 
     fit_t fit;
     fit_of_tile(&a, p, first, &fit);
     a.fitting = false;
+    derivatives_t found;
+    real compressing[TILE_OWN] = {R(0.0)};
+#if MLS_DIRECT
+    own_t velocity[DIMENSIONS][BASIS];
+    velocities_of(&a, velocity);
+    divergence_of(&fit, velocity, compressing);
+    for (int axis = 0; axis < 3; ++axis)
+      for (int l = 0; l < BASIS; ++l) a.velocity[axis][l] = (tile)(R(0.0));
+#endif
 #if LOCAL_IMAGES
     keep_owner(&planes, run.owner);
     find_sums(&a, p, slot_start, images);
 #elif GHOSTS
     sweep_ghosts(&a, p, slot_start, images);
 #endif
-    derivatives_t found;
-    differentiate(&a, p, &fit, &found);
+    differentiate(&a, p, &fit, &found, compressing);
     for (int k = 0; k < a.near.own; ++k) {
       const int i = first + k;
       const real volume = state[FIELD_VOLUME * stride + i];
