@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
               "viscosity_model: morris",
               {"case.yaml:11: numerics/viscosity_model is morris", "leave it out"}},
         Fault{"LargerThanTheKernel", "support: 4", "support: 2.5", {"case.yaml:12: numerics/mls/support is greater than numerics/support"}},
-        Fault{"NoPivot", "pressure: auto", "pressure: auto, pivot: 1", {"numerics/mls/pivot is 1; it must be from 1e-06 to 0.2"}},
+        Fault{"NoPivot", "pivot: 0.05", "pivot: 1", {"numerics/mls/pivot is 1; it must be from 1e-06 to 0.2"}},
         Fault{"DifferenceWithAFreeSurface",
               "pressure: auto",
               "pressure: difference",

@@ -8,6 +8,7 @@ const char* const sound = R"(dimensions: 2
 duration: 2
 fluid:
   spacing: 0.05
+  sound_speed: 30
   fill: [{box: {min: [0.2, 0], max: [6, 0.4]}}]
   damping:
     - {box: {min: [4, 0], max: [6, 1]}, direction: [1, 0], strength: 8, velocity: [0.1, 0]}
@@ -34,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NoKind", "kind: regular, ", "", {"bodies/0/prescribed/waves/kind is missing"}},
         Fault{"NoDepth", "depth: 0.4, ", "", {"bodies/0/prescribed/waves/depth is missing"}},
         Fault{
-            "NoHeight", "height: 0.05, ", "", {"case.yaml:16: bodies/0/prescribed/waves/height is missing; waves of kind regular need it"}},
+            "NoHeight", "height: 0.05, ", "", {"case.yaml:17: bodies/0/prescribed/waves/height is missing; waves of kind regular need it"}},
         Fault{"FlatWaves", "height: 0.05", "height: 0", {"bodies/0/prescribed/waves/height is 0; it must be greater than 0 (m)"}},
         Fault{"KeyOfAnotherKind",
               "period: 1.2",
@@ -62,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
               {"tank/prescribed/waves is given, but waves are made by a body"}},
         Fault{"ZonesOfAFreeTank",
               "  box: {size: [6, 1]}",
-              "  box: {size: [6, 1]}\n  motion: free\n  mass: 100",
+              "  box: {size: [6, 1]}\n  motion: free\n  mass: 100\n  centre_of_mass: [3, 0.5]\n  inertia: 100",
               {"fluid/damping is given, and tank/motion is free"}},
         Fault{"NoGravity", "duration: 2", "duration: 2\ngravity: [0, 0]", {"gravity is zero, without which there are no waves"}},
         Fault{"NoStrength", ", strength: 8", "", {"fluid/damping/0/strength is missing"}},
