@@ -143,7 +143,7 @@ void Runs::run_drains(const Case& checked) {
   read(*solver);
 }
 
-/// Water that comes in by a wall, and a shifting law that leaves it be.
+/// Water that comes in by a wall, a shifting law that leaves it be, and a zone that damps some of the rest.
 void Runs::run_openings() {
   Case checked = column(2);
   checked.bodies.clear();
@@ -155,6 +155,10 @@ void Runs::run_openings() {
   inlet.size = std::array<double, 2>{1, 0.1};
   inlet.velocity = "0.1";
   checked.openings = {inlet};
+  DampingCase damping;
+  damping.box = Box{Vector3d(0.05, 0, 0), Vector3d(0.35, 0, 0.3)};
+  damping.strength = 10;
+  checked.fluid.damping = {damping};
   const Layout layout = lay_out(checked);
   const Case scene = settled(checked, layout);
   const auto solver = make_solver(device_, scene, layout, discretise(scene, layout), {Vector3d::Zero()});
@@ -263,6 +267,21 @@ void run_few(Runs& runs) {
   runs.run_openings();
 }
 
+/// Least squares between wall integrals, by fits found as they are used, and between ghosts, by fits that neighbours are asked for.
+void run_least_squares(Runs& runs, int dimensions) {
+  Case scene = column(dimensions);
+  scene.bodies.clear();
+  scene.numerics.gradients = Gradients::mls_corrected;
+  runs.run(scene);
+  if (dimensions == 2) runs.run_wide(scene);
+  scene.numerics.gradients = Gradients::mls;
+  scene.numerics.mls.pressure = MlsPressure::adjoint;
+  scene.numerics.integrator = Integrator::predictor_corrector;
+  scene.numerics.walls.method = WallMethod::ghost;
+  scene.numerics.walls.repulsion = 0.1;
+  runs.run(scene);
+}
+
 template <class Choice>
 Choice nth(std::size_t k) {
   return method_words<Choice>()[k % method_words<Choice>().size()].choice;
@@ -295,6 +314,7 @@ void run_all(Runs& runs) {
     run_methods(runs, dimensions);
     run_walls(runs, dimensions);
     run_motion(runs, dimensions);
+    run_least_squares(runs, dimensions);
   }
   // tiles of sixteen lanes, which read beyond the last particle
   Case open_water = column(3, DensityDiffusion::antuono);
