@@ -1,6 +1,8 @@
 // Flow between two plates, 40 particles across, in a tank that repeats itself along x: Poiseuille's, driven by a body force, and Couette's,
 // by a plate that runs. Start-up and steady state against their series, for every kind of wall. And a stream along walls, which free slip
 // leaves alone and no slip brakes.
+#include "channel_flow.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -10,9 +12,9 @@
 namespace wavetank {
 namespace {
 
-constexpr double height = 1, viscosity = 0.1, density = 1, top_speed = 1;  // Reynolds number 10
+using namespace channel_flow;
+
 constexpr int across = 40;
-const double pi = std::acos(-1.0);
 
 struct Walls {
   const char* name;
@@ -22,51 +24,12 @@ struct Walls {
   double tolerance;  ///< of the greatest speed
 };
 
-/// A channel along x between z = 0 and `height`; at its top the tank's wall, or a plate.
 Case channel(const Walls& walls, bool plate) {
-  Case scene;
-  scene.dimensions = 2;
-  scene.gravity = Vector3d::Zero();
-  scene.duration = 1;
-  scene.fluid.density = density;
-  scene.fluid.viscosity = viscosity;
-  scene.fluid.sound_speed = 10 * top_speed;
-  scene.fluid.spacing = height / across;
-  const double length = 10 * *scene.fluid.spacing;  // no less than twice the support
-  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(length, 0, height)}};
-  scene.tank.shape = BoxTank{Vector3d(length, 0, plate ? 1.2 * height : height), Vector3d::Zero(), true};
-  scene.tank.periodic = {true, false, false};
+  Case scene = channel_flow::channel(height / across, plate);
   scene.numerics.walls.method = walls.method;
   scene.numerics.walls.elements = walls.elements;
   scene.numerics.viscosity_model = walls.model;
-  scene.numerics.artificial_viscosity = 0;
-  scene.numerics.negative_pressure = NegativePressure::allowed;
-  if (plate) {
-    BodyCase body;
-    body.name = "plate";
-    body.shape = Box{Vector3d(0, 0, height), Vector3d(length, 0, 1.2 * height)};
-    body.surface_velocity = Vector3d(top_speed, 0, 0);
-    scene.bodies.push_back(body);
-  }
   return scene;
-}
-
-/// Speed at height z and time t after the start, from rest.
-double poiseuille(double z, double t) {
-  const double force = 8 * viscosity * top_speed / (height * height);
-  double speed = 4 * top_speed * z * (height - z) / (height * height);
-  for (int n = 1; n < 400; n += 2)
-    speed -= 4 * force * height * height / (viscosity * std::pow(n * pi, 3)) * std::sin(n * pi * z / height) *
-             std::exp(-std::pow(n * pi / height, 2) * viscosity * t);
-  return speed;
-}
-
-double couette(double z, double t) {
-  double speed = top_speed * z / height;
-  for (int n = 1; n < 400; ++n)
-    speed += 2 * top_speed / (n * pi) * std::pow(-1, n) * std::sin(n * pi * z / height) *
-             std::exp(-std::pow(n * pi / height, 2) * viscosity * t);
-  return speed;
 }
 
 /// Of a stream of the top speed, whose walls are there from t = 0 on.
@@ -76,32 +39,6 @@ double braked(double z, double t) {
     speed += 4 * top_speed / (n * pi) * std::sin(n * pi * z / height) * std::exp(-std::pow(n * pi / height, 2) * viscosity * t);
   return speed;
 }
-
-/// Differences of the layers' speed, layers as thick as the spacing, from what it should be; relative to the greatest speed.
-class Layers {
- public:
-  void add(const FluidState& fluid, double time, double (*exact)(double, double)) {
-    for (std::size_t i = 0; i < fluid.id.size(); ++i) {
-      const int layer = std::clamp(static_cast<int>(fluid.position[i].z() / height * across), 0, across - 1);
-      difference_[layer] += (fluid.velocity[i].x() - exact(fluid.position[i].z(), time)) / top_speed;
-      members_[layer] += 1;
-    }
-  }
-  double mean() const {
-    double sum = 0;
-    for (int layer = 0; layer < across; ++layer) sum += std::pow(error(layer), 2);
-    return std::sqrt(sum / across);
-  }
-  double greatest() const {
-    double most = 0;
-    for (int layer = 0; layer < across; ++layer) most = std::max(most, std::abs(error(layer)));
-    return most;
-  }
-
- private:
-  double error(int layer) const { return difference_[layer] / std::max(members_[layer], 1.0); }
-  std::vector<double> difference_ = std::vector<double>(across, 0.0), members_ = difference_;
-};
 
 /// A tank from its start on, and its time.
 class Stepping {
@@ -142,11 +79,11 @@ void compare(const char* flow, const Walls& walls, Tank& tank, double (*exact)(d
   };
   for (const auto& [until, when] : {std::make_pair(0.5, "t = 0.5 s"), std::make_pair(1.0, "t = 1 s"), std::make_pair(2.0, "t = 2 s")}) {
     run.advance_to(until);
-    Layers layers;
+    Layers layers(across);
     layers.add(tank.solver->download(), run.time(), exact);
     check(layers, when);
   }
-  Layers steady;
+  Layers steady(across);
   // At 2.5 s less than a tenth of the start-up is left, and the series has it. The long version looks for what creeps in later.
   const double from = std::getenv("WAVETANK_LONG_TESTS") != nullptr ? 6 : 2.5, duration = from / 3;
   for (int k = 0; k < 20; ++k) {
@@ -207,7 +144,7 @@ TEST(ChannelFlow, NoSlipBrakesAStream) {
     Stepping run(tank);
     run.set_speed(top_speed);
     run.advance_to(0.5);  // the mean speed has fallen to a half
-    Layers layers;
+    Layers layers(across);
     layers.add(tank.solver->download(), run.time(), braked);
     std::printf("%-10s %-28s t = 0.5 s    error of the speed %.2f %% (greatest %.2f %%)\n", "stream", walls.name, 100 * layers.mean(),
                 100 * layers.greatest());
