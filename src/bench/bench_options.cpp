@@ -9,7 +9,7 @@
 namespace wavetank::bench {
 namespace {
 
-const char* const footer =
+const char* const what_is_measured =
     "Without --filter: every size of the dam breaks in 2-D and 3-D, at 100k in 3-D each support, density diffusion and wall treatment by\n"
     "itself, and spheric2_45. Nothing else should run meanwhile. A case that the device's memory cannot hold is skipped.\n"
     "Ctrl-C ends it after the step in progress with what has been measured.\n"
@@ -22,7 +22,7 @@ BenchOptions read_bench_options(int argc, char** argv) {
   BenchOptions options;
   bool list = false, no_cold_build = false, show_version = false;
   CLI::App app("wavetank_bench: measures what this machine does with stock cases.", "wavetank_bench");
-  app.footer(footer);
+  app.footer(what_is_measured);
   app.add_option("--filter", options.filters,
                  "of all cases, those whose names contain this text; may be repeated: a name must contain each")
       ->type_name("TEXT");

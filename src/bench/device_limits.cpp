@@ -54,14 +54,15 @@ double least_time(compute::Device& device, int tries, const std::function<void()
   return least;
 }
 
-double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+double most_a_second(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
 
 /// The greatest rate of a kernel that does `each` operations a number and round, over rounds enough to be timed well.
 double arithmetic_rate(compute::Device& device, int width, std::size_t items, double each, const std::function<void(int rounds)>& launch) {
   constexpr double least_seconds = 0.02;
   int rounds = 64;
   while (rounds < (1 << 24) && least_time(device, 1, [&] { launch(rounds); }) < least_seconds) rounds *= 2;
-  return rate(each * accumulators * width * static_cast<double>(items) * rounds, least_time(device, tries, [&] { launch(rounds); }));
+  return most_a_second(each * accumulators * width * static_cast<double>(items) * rounds,
+                       least_time(device, tries, [&] { launch(rounds); }));
 }
 
 void measure_arithmetic(compute::Device& device, const compute::Program& program, int width, DeviceLimits& limits) {
@@ -81,7 +82,7 @@ void measure_memory(compute::Device& device, const compute::Program& program, in
   compute::Buffer<float> a(device, vectors * width), b(device, vectors * width), c(device, vectors * width);
   const compute::Kernel triad = program.kernel("triad");
   const double seconds = least_time(device, tries, [&] { triad.launch(vectors, static_cast<int>(vectors), 0.5f, b, c, a); });
-  limits.bytes = std::max(limits.bytes, rate(3.0 * sizeof(float) * static_cast<double>(vectors) * width, seconds));
+  limits.bytes = std::max(limits.bytes, most_a_second(3.0 * sizeof(float) * static_cast<double>(vectors) * width, seconds));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace wavetank {
 namespace {
 
 constexpr double narrowest = 2;         // spacings
-constexpr double sliver = 0.35;         // of a cell: less of one is given to its neighbour
+constexpr double least_part = 0.35;     // of a cell: less of one is given to its neighbour
 constexpr double beside_opening = 1.2;  // spacings: water so near to an opening's front stands before it
 
 // ---------------------------------------------------------------- place and lattice
@@ -91,7 +91,7 @@ void set_columns(const std::function<bool(const Vector3d&)>& is_high, Opening& o
       for (int di = -1; di <= 1; ++di) {
         if (i + di < 0 || i + di >= across || j + dj < 0 || j + dj >= up || (di == 0 && dj == 0)) continue;
         const int other = (j + dj) * across + i + di;
-        if (parts[other].area < sliver * whole || (parts[own].area > 0 && is_high(parts[own].place) != is_high(parts[other].place)))
+        if (parts[other].area < least_part * whole || (parts[own].area > 0 && is_high(parts[own].place) != is_high(parts[other].place)))
           continue;
         if (best < 0 || parts[other].area > parts[best].area * (1 + 1e-9)) best = other;
       }
@@ -100,7 +100,7 @@ void set_columns(const std::function<bool(const Vector3d&)>& is_high, Opening& o
   std::vector<int> goes_to(parts.size());
   for (int j = 0; j < up; ++j)
     for (int i = 0; i < across; ++i) {
-      const int own = j * across + i, other = parts[own].area < sliver * whole ? beside(i, j) : -1;
+      const int own = j * across + i, other = parts[own].area < least_part * whole ? beside(i, j) : -1;
       goes_to[own] = other < 0 ? own : other;
     }
   opening.column_of.assign(parts.size(), -1);

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double rounding = 1e-9;  ///< s, below any step
+constexpr double least_time_left = 1e-9;  ///< s, below any step
 
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
@@ -86,7 +86,7 @@ void BagRun::start() {
 void BagRun::step_to_the_end() {
   began_ = Clock::now();
   write_samples();
-  while (last_.time < case_.duration - rounding && interrupted_ == 0) {
+  while (last_.time < case_.duration - least_time_left && interrupted_ == 0) {
     try {
       simulation_->advance();
     } catch (const Violation& violation) {

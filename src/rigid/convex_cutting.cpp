@@ -18,9 +18,9 @@ constexpr double on_plane = 5e-6;        // of the solid's size: corners so near
 constexpr double enough = 0.02;          // of the solid's volume: what the hulls may hold beyond the pieces
 constexpr double enough_of_many = 0.04;  // where there are `many` parts
 constexpr double enough_of_joined = 0.03;
-constexpr double next_to_nothing = 1e-7;  // of the solid's volume: smaller pieces are what rounding leaves
-constexpr double of_finished = 0.3;       // how much a piece that is convex counts for a cut, against the volume that it gains
-constexpr double finished = 1e-3;         // of a piece's volume
+constexpr double least_piece = 1e-7;  // of the solid's volume: smaller pieces are what rounding leaves
+constexpr double of_finished = 0.3;   // how much a piece that is convex counts for a cut, against the volume that it gains
+constexpr double finished = 1e-3;     // of a piece's volume
 constexpr std::size_t many = 64, most = 500;
 constexpr std::size_t most_planes = 24;
 
@@ -279,7 +279,7 @@ class Cutter {
       double gain = 0;
       bool both = true;
       for (const Piece& half : halves) {
-        both = both && half.hull && half.volume > next_to_nothing * volume_;
+        both = both && half.hull && half.volume > least_piece * volume_;
         gain -= half.excess();
         if (half.excess() <= finished * half.volume) gain += of_finished * half.volume;
       }

@@ -22,18 +22,18 @@ constexpr double triangle_tolerance = 1e-3;  // inertias come rounded to a few d
 using Edge = std::pair<int, int>;  // of the mesh, the lesser vertex first
 
 /// Where the plane y = 0 cuts a triangle: from one of its edges to another, the mesh's inside on the right hand seen along +y.
-struct Segment {
+struct BorderSegment {
   Edge from_edge, to_edge;
   Vector3d from, to;
 };
 
 /// Vertices count as on one side or the other of the plane, never on it, so that every closed mesh has closed outlines: as the walls that
 /// the fluid sees.
-std::vector<Segment> cut(const TriangleMesh& mesh, bool on_plane_is_above) {
+std::vector<BorderSegment> segments_at_plane(const TriangleMesh& mesh, bool on_plane_is_above) {
   const auto above = [&](int v) { return on_plane_is_above ? mesh.vertices[v].y() >= 0 : mesh.vertices[v].y() > 0; };
-  std::vector<Segment> segments;
+  std::vector<BorderSegment> segments;
   for (const Vector3i& triangle : mesh.triangles) {
-    Segment segment;
+    BorderSegment segment;
     bool found = false;
     for (int k = 0; k < 3; ++k) {
       const int a = triangle[k], b = triangle[(k + 1) % 3];
@@ -64,11 +64,11 @@ double size_of(const TriangleMesh& mesh) {
 double least_area(const TriangleMesh& mesh) { return next_to_nothing * std::pow(size_of(mesh), 2); }
 
 /// Of the section's trapezoids, which count once what several solids have in common.
-std::vector<Segment> borders_of_bands(const TriangleMesh& mesh) {
-  std::vector<Segment> segments;
+std::vector<BorderSegment> borders_of_bands(const TriangleMesh& mesh) {
+  std::vector<BorderSegment> segments;
   for (const std::vector<Vector3d>& band : section_bands(mesh))
     for (std::size_t k = 0; k < band.size(); ++k) {
-      Segment segment;
+      BorderSegment segment;
       segment.from = band[(k + 1) % band.size()];
       segment.to = band[k];
       segments.push_back(segment);
@@ -77,13 +77,13 @@ std::vector<Segment> borders_of_bands(const TriangleMesh& mesh) {
 }
 
 /// By Green's theorem: a triangle from the mesh's middle to each segment.
-VolumeProperties properties_of(const std::vector<Segment>& segments, const TriangleMesh& mesh) {
+VolumeProperties properties_of(const std::vector<BorderSegment>& segments, const TriangleMesh& mesh) {
   Vector3d middle = middle_of(mesh);
   middle.y() = 0;
   VolumeProperties result;
   Vector3d moment = Vector3d::Zero();
   double second_moment = 0;
-  for (const Segment& segment : segments) {
+  for (const BorderSegment& segment : segments) {
     const Vector3d p = segment.from - middle, q = segment.to - middle;
     const double area = 0.5 * (p.z() * q.x() - p.x() * q.z());
     result.volume += area;
@@ -100,11 +100,11 @@ VolumeProperties properties_of(const std::vector<Segment>& segments, const Trian
 /// The section that has an area, if one has; `closed` tells whether its lines are.
 std::optional<VolumeProperties> section(const TriangleMesh& mesh, bool& closed) {
   for (const bool on_plane_is_above : {true, false}) {  // a mesh that only touches the plane from one side is cut in one of the two
-    const std::vector<Segment> segments = cut(mesh, on_plane_is_above);
+    const std::vector<BorderSegment> segments = segments_at_plane(mesh, on_plane_is_above);
     const VolumeProperties found = properties_of(segments, mesh);
     if (found.volume == 0) continue;
     std::map<Edge, int> balance;
-    for (const Segment& segment : segments) ++balance[segment.from_edge], --balance[segment.to_edge];
+    for (const BorderSegment& segment : segments) ++balance[segment.from_edge], --balance[segment.to_edge];
     closed = std::all_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second == 0; });
     if (!closed || found.volume < 0) return found;
     const VolumeProperties once = properties_of(borders_of_bands(mesh), mesh);

@@ -8,7 +8,7 @@
 namespace wavetank {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double full_turn = 6.28318530717958647692;
 
 void add(RigidLoad& load, const Vector3d& force, const Vector3d& arm) {
   load.force += force;
@@ -17,7 +17,7 @@ void add(RigidLoad& load, const Vector3d& force, const Vector3d& arm) {
 
 double factor(const ForceCase& force, double time) {
   if (time < force.from || (force.to && time > *force.to)) return 0;
-  return force.frequency == 0 ? 1 : std::sin(2 * pi * force.frequency * (time - force.from) + force.phase);
+  return force.frequency == 0 ? 1 : std::sin(full_turn * force.frequency * (time - force.from) + force.phase);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace wavetank {
 namespace {
 
-constexpr double edge = 4.2;               // θ at which the paddle starts for a solitary wave: sech² is 1e-3
-constexpr double samples_per_period = 40;  // of the highest component
+constexpr double edge = 4.2;             // θ at which the paddle starts for a solitary wave: sech² is 1e-3
+constexpr double samples_per_wave = 40;  // of the highest component
 constexpr double least_share_of_speed = 1e-9;
 
 /// e sin(ωt + φ), m.
@@ -87,7 +87,7 @@ MotionTerm wave_term(const WaveCase& wave, double gravity, const std::string& re
       const Change change = solitary.paddle_at(time);
       return Change{sign * change.value, sign * change.rate, sign * change.acceleration};
     };
-    return {wave.direction, at, solitary.duration() / (2 * samples_per_period)};
+    return {wave.direction, at, solitary.duration() / (2 * samples_per_wave)};
   }
   const std::optional<double> hinge = is_flap(wave) ? std::optional<double>(wave.hinge) : std::nullopt;
   std::vector<Stroke> strokes;
@@ -116,7 +116,7 @@ MotionTerm wave_term(const WaveCase& wave, double gravity, const std::string& re
     }
     return arm > 0 ? angle_of(place, arm) : place;
   };
-  return {wave.direction, at, std::min(2.0 * M_PI / (samples_per_period * highest), rise / samples_per_period)};
+  return {wave.direction, at, std::min(2.0 * M_PI / (samples_per_wave * highest), rise / samples_per_period)};
 }
 
 }  // namespace wavetank

@@ -52,7 +52,7 @@ std::optional<Direction> direction_of(const RecordCase& record) {
   return record.direction ? record.direction : direction_named(record.column);
 }
 
-Section<RecordCase> record_section() {
+Section<RecordCase> motion_record_section() {
   Section<RecordCase> section;
   section
       .key(
@@ -112,7 +112,7 @@ Section<PrescribedCase> prescribed_section() {
   section.key("harmonics", &PrescribedCase::harmonics, list_of(harmonic_section()), "",
               "Oscillations; harmonics, ramps, records and waves are added up, direction by direction.");
   section.key("ramps", &PrescribedCase::ramps, list_of(ramp_section()), "", "Smooth changes between two times.");
-  section.key("records", &PrescribedCase::records, list_of(record_section()), "", "Motions from files, joined by a cubic spline.");
+  section.key("records", &PrescribedCase::records, list_of(motion_record_section()), "", "Motions from files, joined by a cubic spline.");
   section.key("waves", &PrescribedCase::waves, section_if_given(wave_section()), "", "The motion of a paddle that makes waves by theory.");
   section.rule(check_plane);
   section.rule([](const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context&) {

@@ -23,7 +23,7 @@ Codec<std::array<double, 2>> rectangle_size() {
           }};
 }
 
-Section<FlowRecordCase> record_section() {
+Section<FlowRecordCase> flow_record_section() {
   Section<FlowRecordCase> section;
   section
       .key("file", &FlowRecordCase::file, nonempty_text(), "",
@@ -41,7 +41,7 @@ Section<FlowRecordCase> record_section() {
   return section;
 }
 
-Section<FlowCommandCase> command_section() {
+Section<FlowCommandCase> flow_command_section() {
   Section<FlowCommandCase> section;
   section.key("greatest_discharge", &FlowCommandCase::greatest_discharge, number_or_none(greater_than(0)), "m³/s",
               "Limit of the discharge; in 2-D a metre of width (m²/s).");
@@ -191,8 +191,8 @@ Section<OpeningCase> opening_section() {
               "Into the tank of an inlet, out of it of an outlet, a number or an expression of t (s); in 2-D a metre of width (m²/s).");
   section.key("head", &OpeningCase::head, expression(Expression::Of::time), "m",
               "Of a pressure: the height (z) that water beyond the opening would stand to, a number or an expression of t (s).");
-  section.key("record", &OpeningCase::record, section_if_given(record_section()), "", "Discharge, velocity or head from a file.");
-  section.key("command", &OpeningCase::command, section_if_given(command_section()), "",
+  section.key("record", &OpeningCase::record, section_if_given(flow_record_section()), "", "Discharge, velocity or head from a file.");
+  section.key("command", &OpeningCase::command, section_if_given(flow_command_section()), "",
               "The discharge is commanded while it runs, and nothing flows before; limits on it, or {}.");
   section.key(
       "profile", &OpeningCase::profile, profile(), "",

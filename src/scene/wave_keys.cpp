@@ -64,7 +64,7 @@ Section<WaveFocusCase> focus_section() {
   return section;
 }
 
-Section<WaveRecordCase> record_section() {
+Section<WaveRecordCase> wave_record_section() {
   Section<WaveRecordCase> section;
   section
       .key(
@@ -141,7 +141,7 @@ Section<WaveCase> wave_section() {
   section.key_where(belongs("seed"), "seed", &WaveCase::seed, whole_number(between(0, 2147483647)), "",
                     "Of the components' frequencies and phases.");
   section.key_where(belongs("focus"), "focus", &WaveCase::focus, section_of(focus_section()), "", "Where and when the crests meet.");
-  section.key_where(belongs("record"), "record", &WaveCase::record, section_of(record_section()), "", "The surface's elevation.");
+  section.key_where(belongs("record"), "record", &WaveCase::record, section_of(wave_record_section()), "", "The surface's elevation.");
   section.key_where(
       belongs("rise"), "rise", &WaveCase::rise, number_if_given(greater_than(0)), "s",
       "Time from the start in which the motion rises smoothly to its full size; if it is left out, one period, or that of the "

@@ -9,7 +9,7 @@
 namespace wavetank::bench {
 namespace {
 
-const char* const footer =
+const char* const what_is_checked =
     "Parts: still_tank, a tank at rest in 3-D; dam_break, a second of SPHERIC benchmark 2; tiles, what the neighbour loop takes at a time\n"
     "against one by one; kernels, every kernel on small cases. The JSON is written anew after each part.\n"
     "Exit code: 0 all is well, 1 a check failed, 2 an error (one sentence on standard error).\n"
@@ -21,7 +21,7 @@ CheckOptions read_check_options(int argc, char** argv) {
   CheckOptions options;
   bool show_version = false;
   CLI::App app("wavetank_check: whether this machine's OpenCL device computes what it should.", "wavetank_check");
-  app.footer(footer);
+  app.footer(what_is_checked);
   app.add_option("--part", options.parts, "this part of the check alone; may be repeated")->type_name("PART");
   app.add_option("--device", options.device, "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name")->type_name("DEVICE");
   app.add_option("--json", options.json, "write all of it to this file (an older one is replaced)")->type_name("FILE");

@@ -10,7 +10,7 @@
 namespace wavetank::bench {
 namespace {
 
-constexpr double duration = 1.0;       // s
+constexpr double flow_time = 1.0;      // s
 constexpr double spacing = 0.55 / 18;  // m: 24 thousand particles
 constexpr double impulse_from = 0.35;  // s, as config/spheric2_key_figures.csv has it
 
@@ -19,7 +19,7 @@ double spendable_energy(const EnergySample& start, double depth, double spread_d
   return start.mass * 9.81 * 0.5 * (depth - spread_depth);
 }
 
-Case scene_for(const compute::DeviceInfo& device) {
+Case dam_break_for(const compute::DeviceInfo& device) {
   BenchCase spheric2;
   spheric2.name = "dam break";
   spheric2.spacing = spacing;
@@ -57,7 +57,7 @@ std::size_t outside(const ParticleCloud& cloud, const Box& tank) {
 std::vector<Check> key_figures(const Case& scene) {
   Simulation simulation(scene);
   const std::size_t particles = simulation.state().particles;
-  while (simulation.state().time < duration) simulation.advance();
+  while (simulation.state().time < flow_time) simulation.advance();
   const Samples samples = simulation.take_samples();
 
   const auto probe = [](std::size_t index) { return [index](const PressureSample& sample) { return sample.pressures[index]; }; };
@@ -97,6 +97,6 @@ std::vector<Check> key_figures(const Case& scene) {
 
 }  // namespace
 
-std::vector<Check> check_dam_break(const compute::DeviceInfo& device) { return key_figures(scene_for(device)); }
+std::vector<Check> check_dam_break(const compute::DeviceInfo& device) { return key_figures(dam_break_for(device)); }
 
 }  // namespace wavetank::bench

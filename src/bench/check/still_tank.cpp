@@ -11,7 +11,7 @@ namespace {
 constexpr double duration = 0.3;  // s, t √(g/depth) = 1.7
 constexpr double depth = 0.3, side = 0.3, spacing = 0.02, gravity = 9.81;
 
-Case scene_for(const compute::DeviceInfo& device) {
+Case still_tank_for(const compute::DeviceInfo& device) {
   Case scene;
   scene.title = "still tank";
   scene.duration = duration;
@@ -27,7 +27,7 @@ Case scene_for(const compute::DeviceInfo& device) {
 }  // namespace
 
 std::vector<Check> check_still_tank(const compute::DeviceInfo& device) {
-  Simulation simulation(scene_for(device));
+  Simulation simulation(still_tank_for(device));
   const std::size_t particles = simulation.state().particles;
   double speed = 0;
   while (simulation.state().time < duration) {

@@ -8,7 +8,7 @@ using Source = ParameterSource;
 const std::vector<FieldRow> steady_part{
     {ParticleArray::state, {"steady"}, "1/s", "steady part of the density diffusion", true, FieldRow::Evolution::follower}};
 
-std::vector<ParameterRow> numbers() {
+std::vector<ParameterRow> diffusion_numbers() {
   return {{"density_diffusion", "m²/s", "δ h c₀",
            [](const Source& s) {
              return s.scene.numerics.density_diffusion_coefficient * s.discretisation.smoothing_length * s.discretisation.sound_speed;
@@ -29,7 +29,7 @@ Method density_diffusion_of(const Case& scene) {
   Method method{"density_diffusion", word_of(diffusion)};
   if (diffusion == DensityDiffusion::none) return method;
   method.fields = steady_part;
-  method.parameters = numbers();
+  method.parameters = diffusion_numbers();
   method.needs_compression_gradient = diffusion == DensityDiffusion::antuono;
   return method;
 }

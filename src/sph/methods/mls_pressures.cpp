@@ -17,7 +17,7 @@ double weight_scale(const Source& s) {
   return kernel_scale(d);
 }
 
-std::vector<ParameterRow> numbers() {
+std::vector<ParameterRow> mls_numbers() {
   return {{"mls_support", "m", "R_m of the weights", [](const Source& s) { return 2 * length(s); }},
           {"mls_inverse_support", "1/m", "1/R_m", [](const Source& s) { return 0.5 / length(s); }},
           {"mls_inverse", "1/m", "1/h_m, by which the basis is scaled", [](const Source& s) { return 1 / length(s); }},
@@ -45,7 +45,7 @@ Method mls_pressure_of(const Case& scene) {
   if (numerics.gradients == Gradients::sph) return {"mls_pressure", "sum"};
   const MlsPressure form = settled_form(numerics);
   Method method{"mls_pressure", word_of(form)};
-  method.parameters = numbers();
+  method.parameters = mls_numbers();
   method.fields = {{ParticleArray::rates, {"fit"}, "", "0: of second order; 1: but for its Laplacian; 2: of first order; 3: less"}};
   const auto is = [](const char* level) { return "rates[RATE_FIT * stride + i] == R(" + std::string(level) + ") ? 1 : 0"; };
   method.reports = {{"fits_of_first_order", ReportRow::Kind::count, "", "particles whose fit is of first order", is("2.0")},

@@ -1,14 +1,12 @@
 #include "device_sizes.h"
 
-#include <algorithm>
-#include <cctype>
+#include "macro_names.h"
 
 namespace wavetank {
 namespace {
 
-std::string definition(std::string name, const std::string& value, const std::string& meaning) {
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return "#define " + name + " " + value + "  // " + meaning + "\n";
+std::string definition(const std::string& name, const std::string& value, const std::string& meaning) {
+  return "#define " + macro_name(name) + " " + value + "  // " + meaning + "\n";
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "fields.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "macro_names.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -11,11 +11,6 @@ namespace {
 
 constexpr const char* array_names[] = {"state", "rates", "sums"};
 constexpr const char* device_prefixes[] = {"FIELD_", "RATE_", "SUM_"};
-
-std::string upper(std::string name) {
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
 
 std::vector<FieldRow> with_rates(std::vector<FieldRow> rows) {
   const std::size_t given = rows.size();
@@ -63,7 +58,7 @@ std::string FieldTable::header() const {
     for (const FieldRow& row : rows_) {
       if (static_cast<int>(row.array) != array) continue;
       for (const std::string& component : row.components)
-        text += "#define " + (device_prefixes[array] + upper(component)) + " " + std::to_string(place++) + "  // " + row.meaning +
+        text += "#define " + (device_prefixes[array] + macro_name(component)) + " " + std::to_string(place++) + "  // " + row.meaning +
                 (row.unit.empty() ? "" : ", " + row.unit) + "\n";
     }
     text += "#define " + std::string(device_prefixes[array]) + "COUNT " + std::to_string(place) + "\n";
@@ -75,7 +70,7 @@ std::string FieldTable::each_of(FieldRow::Evolution evolution, const std::string
   std::string text = "#define " + macro + "(DO)";
   for (const FieldRow& row : rows_)
     if (row.evolution == evolution)
-      for (const std::string& component : row.components) text += " DO(" + upper(component) + ")";
+      for (const std::string& component : row.components) text += " DO(" + macro_name(component) + ")";
   return text + "\n";
 }
 

@@ -1,20 +1,15 @@
 #include "reports.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "macro_names.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
 namespace {
 
-using Kind = ReportRow::Kind;
-
-std::string upper(std::string name) {
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
+using ReportKind = ReportRow::Kind;
 
 std::string define(const std::string& name, int value, const ReportRow& row) {
   return "#define " + name + " " + std::to_string(value) + "  // " + row.meaning + (row.unit.empty() ? "" : ", " + row.unit) + "\n";
@@ -23,13 +18,15 @@ std::string define(const std::string& name, int value, const ReportRow& row) {
 }  // namespace
 
 ReportTable::ReportTable(std::vector<ReportRow> rows) : rows_(std::move(rows)) {
-  const auto is = [](const std::string& name) { return [name](const std::string& other) { return upper(other) == upper(name); }; };
+  const auto is = [](const std::string& name) {
+    return [name](const std::string& other) { return macro_name(other) == macro_name(name); };
+  };
   for (const ReportRow& row : rows_) {
     for (const auto* names : {&greatest_, &integers_})
       if (std::any_of(names->begin(), names->end(), is(row.name)))
         throw Error("two values of a step's report are called \"" + row.name + "\"");
     if (is("count")(row.name)) throw Error("no value of a step's report may be called \"" + row.name + "\": it is how many there are");
-    (row.kind == Kind::greatest ? greatest_ : integers_).push_back(row.name);
+    (row.kind == ReportKind::greatest ? greatest_ : integers_).push_back(row.name);
   }
 }
 
@@ -42,16 +39,16 @@ int ReportTable::place(const std::vector<std::string>& names, const std::string&
 std::string ReportTable::header() const {
   std::string places, least, watch, end;
   for (const ReportRow& row : rows_) {
-    if (row.kind == Kind::greatest) {
-      const std::string name = "GREATEST_" + upper(row.name);
+    if (row.kind == ReportKind::greatest) {
+      const std::string name = "GREATEST_" + macro_name(row.name);
       places += define(name, place(greatest_, row.name), row);
       watch += "  greatest[" + name + "] = fmax(greatest[" + name + "], " + row.value + ");\n";
       end += "  if (k == " + name + ") return " + row.end + ";\n";
     } else {
-      const std::string name = "COUNTED_" + upper(row.name);
+      const std::string name = "COUNTED_" + macro_name(row.name);
       places += define(name, place(integers_, row.name), row);
-      if (row.kind == Kind::count) watch += "  counted[" + name + "] += " + row.value + ";\n";
-      if (row.kind == Kind::first) {
+      if (row.kind == ReportKind::count) watch += "  counted[" + name + "] += " + row.value + ";\n";
+      if (row.kind == ReportKind::first) {
         least += " || k == " + name;
         watch += "  if (counted[" + name + "] == NOBODY && (" + row.value + ")) counted[" + name + "] = i;\n";
       }
@@ -71,19 +68,19 @@ std::string ReportTable::header() const {
 
 const std::vector<ReportRow>& common_reports() {
   static const std::vector<ReportRow> rows{
-      {"particles", Kind::count, "", "in the water", "w->here"},
-      {"speed", Kind::greatest, "m/s", "greatest |u|", "w->sound ? w->speed2 : R(0.0)", "sqrt(greatest)"},
+      {"particles", ReportKind::count, "", "in the water", "w->here"},
+      {"speed", ReportKind::greatest, "m/s", "greatest |u|", "w->sound ? w->speed2 : R(0.0)", "sqrt(greatest)"},
       // from before the sorting, so of another particle: one that is not finite shows in its own particle's velocity
-      {"acceleration", Kind::greatest, "m/s²", "greatest |du/dt|", "not_finite(w->acceleration2) ? R(0.0) : w->acceleration2",
+      {"acceleration", ReportKind::greatest, "m/s²", "greatest |du/dt|", "not_finite(w->acceleration2) ? R(0.0) : w->acceleration2",
        "sqrt(greatest)"},
-      {"not_finite", Kind::count, "", "with a place or a velocity that is not finite", "w->broken"},
-      {"outside", Kind::count, "", "outside the watchdog's box", "w->outside"},
-      {"fast", Kind::count, "", "faster than c₀/2", "w->fast"},
-      {"offender", Kind::first, "", "the first of those", "w->broken || w->outside || w->fast"},
-      {"guarded", Kind::count, "", "guard hits of this step", "w->guarded"},
-      {"bounded", Kind::count, "", "whose γ is bounded", "w->shepard > R(1.005) || w->shepard < R(0.05) ? 1 : 0"},
-      {"infected", Kind::count, "", "not finite in the compression alone, which follows from that of others", "w->infected"},
-      {"first_infected", Kind::first, "", "the first of those", "w->infected"},
+      {"not_finite", ReportKind::count, "", "with a place or a velocity that is not finite", "w->broken"},
+      {"outside", ReportKind::count, "", "outside the watchdog's box", "w->outside"},
+      {"fast", ReportKind::count, "", "faster than c₀/2", "w->fast"},
+      {"offender", ReportKind::first, "", "the first of those", "w->broken || w->outside || w->fast"},
+      {"guarded", ReportKind::count, "", "guard hits of this step", "w->guarded"},
+      {"bounded", ReportKind::count, "", "whose γ is bounded", "w->shepard > R(1.005) || w->shepard < R(0.05) ? 1 : 0"},
+      {"infected", ReportKind::count, "", "not finite in the compression alone, which follows from that of others", "w->infected"},
+      {"first_infected", ReportKind::first, "", "the first of those", "w->infected"},
   };
   return rows;
 }
