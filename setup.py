@@ -1,0 +1,7 @@
+"""For catkin alone, which wants it here: where the Python package of the tools lies."""
+
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(packages=["wavetank"], package_dir={"": "src/python"}))
