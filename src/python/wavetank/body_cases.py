@@ -138,7 +138,7 @@ class BodyCase:
             if self.dimensions == 2:
                 size[1] = max(size)
             del body["box"]
-            body["mesh"] = "shape://box?size=%.17g,%.17g,%.17g" % tuple(size)
+            body["mesh"] = "shape://box?size=%.12g,%.12g,%.12g" % tuple(size)
             body["translation"] = [float(value) for value in 0.5 * (low + high)]
         for placed in [body] + body.get("collision_parts", []):
             at = self._point(placed.get("translation", [0, 0, 0]))
@@ -174,9 +174,11 @@ class BodyCase:
         self.sample(tree, 100.0 / period)
         return tree
 
-    def released(self, direction, displacement, duration, spacing):
+    def check_released(self):
         if not {"mass", "density"} & set(self.body):
             raise Failure("to be let go, the body '%s' needs a mass or a density: bodies/%d/mass" % (self.name, self.index))
+
+    def released(self, direction, displacement, duration, spacing):
         tree = self.changed("free", duration, spacing)
         self.displace(tree, direction, displacement)
         self.sample(tree, LEAST_RATE)

@@ -5,6 +5,7 @@ import os
 
 from wavetank import Failure
 from wavetank.recording import Recording
+from wavetank.vtk_files import write_vtk
 
 ROWS_AT_ONCE = 5000
 
@@ -79,12 +80,13 @@ def write_hdf5(tables, recording, path):
 def read_arguments(arguments):
     parser = argparse.ArgumentParser(
         prog="export",
-        description="Writes what a bag holds as files that others read: CSV, or HDF5.",
+        description="Writes what a bag holds as files that others read: CSV, HDF5, or VTK for ParaView.",
         epilog="pandas.read_csv(FILE, float_precision='round_trip') reads the bag's very bits; without it, it rounds the last of them.",
     )
     parser.add_argument("bag", help="written by wavetank_run or rosbag record")
     form = parser.add_mutually_exclusive_group(required=True)
     form.add_argument("--csv", metavar="DIR", help="a file for each instrument, or for those that are sampled together, into this folder")
+    form.add_argument("--vtk", metavar="DIR", help="point clouds, tank and bodies for ParaView, into this folder: open DIR/case.pvd")
     form.add_argument("--hdf5", metavar="FILE", help="all into one file of HDF5, which needs h5py")
     parser.add_argument("-i", "--instrument", metavar="NAME", action="append", help="only this, as probes or bodies/hull/wrench; may be repeated")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
@@ -94,9 +96,12 @@ def read_arguments(arguments):
 def main(arguments):
     options = read_arguments(arguments)
     recording = Recording(options.bag, options.namespace)
-    tables = [recording.table(name) for name in options.instrument or recording.names]
-    tables = [table for table in tables if table.columns]
     try:
+        if options.vtk:
+            print("wrote '%s'" % write_vtk(recording, options.vtk))
+            return
+        tables = [recording.table(name) for name in options.instrument or recording.names]
+        tables = [table for table in tables if table.columns]
         if options.csv:
             for path in csv_files(tables, options.csv):
                 print("wrote '%s'" % path)
@@ -104,4 +109,4 @@ def main(arguments):
             write_hdf5(tables, recording, options.hdf5)
             print("wrote '%s'" % options.hdf5)
     except OSError as error:
-        raise Failure("cannot write '%s': %s" % (options.csv or options.hdf5, error.strerror or error))
+        raise Failure("cannot write '%s': %s" % (options.csv or options.hdf5 or options.vtk, error.strerror or error))

@@ -84,7 +84,7 @@ def swing(times, parameters):
     x, v = start.copy(), speed.copy()
     result = numpy.empty((len(times), len(start)))
     result[0] = x
-    longest = 0.05 / math.sqrt(max(float(k.max()), 1e-12))
+    longest = 0.1 / math.sqrt(max(float(k.max()), 1e-12))
     for n, gap in enumerate(numpy.diff(times), 1):
         steps = max(1, math.ceil(gap / longest))
         h = gap / steps

@@ -41,22 +41,24 @@ def motion_of(recording, body, direction):
 
 
 class Study:
-    """What the three kinds of study share: the case, the folder, the runs and what is told."""
+    """What the three kinds of study share: the case, the folder, the runs and what is told. A kind has its name `section`, and says what it is about by
+    check(), before anything is run, prepare(), with the sizes of tank and body at hand, run() and coefficients()."""
 
     def __init__(self, options, direction):
         self.options, self.direction = options, direction
+        self.axis, self.turns = DIRECTIONS.index(direction) % 3, direction in TURNS
         self.case = BodyCase(options.case, options.body, [read_setting(text) for text in options.set])
         self.case.check_direction(direction)
         self.spacings = sorted(numbers_of(options.spacings, "the spacings"), reverse=True) if options.spacings else [None]
         if any(spacing is not None and not spacing > 0 for spacing in self.spacings):
             raise Failure("the spacings '%s' are not all greater than 0" % options.spacings)
+        self.check(options)
+        self.runner = Runner(options.out, options.again)
         self.folder = os.path.join(options.out, "cases")
         os.makedirs(self.folder, exist_ok=True)
-        self.runner = Runner(options.out, options.again)
         self.failed = False
         self.facts = TankFacts(self.case, self.write(self.case.changed("fixed", 1.0, self.spacings[0]), "as_given"))
-        self.axis = DIRECTIONS.index(direction) % 3
-        self.turns = direction in TURNS
+        self.prepare(options)
 
     def write(self, tree, name):
         path = os.path.join(self.folder, name + ".yaml")
@@ -78,8 +80,8 @@ class Study:
     def tell_blockage(self):
         axis = 2 if self.turns else self.axis
         body, water = self.facts.across(axis)
-        across = {0: "length", 1: "width", 2: "height"}[axis]
-        print("blockage: the body takes %.3g %% of the water's section across the tank's %s" % (100 * body / water, across))
+        section = ("section across x", "section across y", "horizontal section")[axis]
+        print("blockage: the body takes %.3g %% of the water's %s" % (100 * body / water, section))
         return float(body / water)
 
     def tell_waves(self, period, end):
@@ -100,7 +102,9 @@ class Study:
         if self.direction in ("surge", "sway", "yaw") or self.facts.gravity == 0:
             return {spacing: 0.0 for spacing in self.spacings}
         amount, duration = self.held_apart(), self.options.hold
-        names = {(spacing, sign): self.name("held", self.direction, word, spacing=spacing) for spacing in self.spacings for sign, word in ((1, "up"), (-1, "down"))}
+        names = {
+            (spacing, sign): self.name("held", self.direction, word, spacing=spacing) for spacing in self.spacings for sign, word in ((1, "up"), (-1, "down"))
+        }
         cases = {name: self.case.held(self.direction, sign * amount, duration, spacing) for (spacing, sign), name in names.items()}
         recordings = self.do(cases)
         found = {}
@@ -119,8 +123,7 @@ class Study:
 class Oscillation(Study):
     section = "oscillate"
 
-    def __init__(self, options):
-        super().__init__(options, options.oscillate)
+    def check(self, options):
         if not options.periods:
             raise Failure("--oscillate needs --periods, as in --periods 0.8:1.6:5")
         self.periods = numbers_of(options.periods, "the periods")
@@ -128,6 +131,8 @@ class Oscillation(Study):
             raise Failure("the periods '%s' are not all greater than 0" % options.periods)
         if options.amplitude is not None and not options.amplitude > 0:
             raise Failure("the amplitude is %g; it must be greater than 0" % options.amplitude)
+
+    def prepare(self, options):
         given = math.radians(options.amplitude) if options.amplitude and self.turns else options.amplitude
         self.amplitude = given or (math.radians(3.0) if self.turns else 0.05 * float(self.facts.body[[0, 2] if self.case.dimensions == 2 else [0, 1, 2]].min()))
 
@@ -143,9 +148,11 @@ class Oscillation(Study):
         stiffness = self.stiffness()
         ends = {period: (options.rise + options.wait + options.cycles) * period for period in self.periods}
         back = {period: self.tell_waves(period, ends[period]) for period in self.periods}
-        names = {(period, spacing): self.name("oscillate", self.direction, "T=%g" % period, spacing=spacing) for spacing in self.spacings for period in self.periods}
+        names = {
+            (period, spacing): self.name("oscillate", self.direction, "T=%g" % period, spacing=spacing) for spacing in self.spacings for period in self.periods
+        }
         recordings = self.do({
-            name: self.case.oscillating(self.direction, self.amplitude, period, options.rise * period, ends[period], spacing)
+            name: self.case.oscillating(self.direction, self.amplitude, period, options.rise * period, ends[period] + 0.03 * period, spacing)
             for (period, spacing), name in names.items()
         })  # fmt: skip
         rows = []
@@ -156,7 +163,7 @@ class Oscillation(Study):
             first = (options.rise + options.wait) * period
             row = {"period": period}
             row.update({} if spacing is None else {"spacing": spacing})
-            row.update(fits.fit_oscillation(motion, force, period, first, min(motion[0][-1], force[0][-1]), stiffness[spacing]))
+            row.update(fits.fit_oscillation(motion, force, period, first, ends[period], stiffness[spacing]))
             row["waves_return_after"] = back[period]
             rows.append(row)
         print_rows(rows, ("period", "spacing", "added_mass", "damping", "residual", "second_harmonic"))
@@ -194,8 +201,7 @@ class Oscillation(Study):
 class Decay(Study):
     section = "decay"
 
-    def __init__(self, options):
-        super().__init__(options, options.decay)
+    def check(self, options):
         if self.direction in ("surge", "sway", "yaw"):
             raise Failure("nothing brings a body back in %s: --decay is of heave, roll or pitch" % self.direction)
         if not options.displacement:
@@ -203,6 +209,10 @@ class Decay(Study):
         if not options.duration:
             raise Failure("--decay needs --duration, s, of several swings")
         self.displacement = math.radians(options.displacement) if self.turns else options.displacement
+        self.case.check_released()
+
+    def prepare(self, options):
+        pass
 
     def held_apart(self):
         return abs(self.displacement)
@@ -223,6 +233,8 @@ class Decay(Study):
             if self.facts.mass and not self.turns:
                 row["added_mass"] = inertia - self.facts.mass
             row["waves_return_after"] = self.tell_waves(row["period"], self.options.duration)
+            if row["swings"] < 4:
+                print("in %d half swings linear and quadratic damping are hardly told apart" % row["swings"])
             rows.append(row)
         print_rows(rows, ("spacing", "period", "linear", "quadratic", "inertia_with_water", "added_mass", "swings", "residual"))
         found = {"displacement": self.displacement, "blockage": blockage, "results": rows, "convergence": "not looked at: give two --spacings"}
@@ -244,8 +256,7 @@ class Decay(Study):
 class Tow(Study):
     section = "tow"
 
-    def __init__(self, options):
-        super().__init__(options, options.tow)
+    def check(self, options):
         if self.turns:
             raise Failure("a body is towed in surge, sway or heave, not in %s" % self.direction)
         if not options.speeds:
@@ -253,6 +264,8 @@ class Tow(Study):
         self.speeds = numbers_of(options.speeds, "the speeds")
         if 0 in self.speeds:
             raise Failure("a speed of 0 tells no drag")
+
+    def prepare(self, options):
         self.distance = self._distance(options.distance)
 
     def _distance(self, wanted):
@@ -346,7 +359,10 @@ def judged(change):
     change["converged"] = bool(greatest <= CONVERGED)
     where = ", ".join("%s %g" % (key, value) for key, value in change.items() if key in ("period", "speed"))
     if not change["converged"]:
-        print("not converged%s: %s differs by %.0f %% between the two finest spacings" % (" at " + where if where else "", name[: -len("_change")], 100 * greatest))
+        print(
+            "not converged%s: %s differs by %.0f %% between the two finest spacings"
+            % (" at " + where if where else "", name[: -len("_change")], 100 * greatest)
+        )
     return change
 
 
@@ -433,9 +449,9 @@ def read_arguments(arguments):
 
 def main(arguments):
     options = read_arguments(arguments)
-    kind = Oscillation if options.oscillate else Decay if options.decay else Tow
+    kind, direction = next((each, getattr(options, each.section)) for each in (Oscillation, Decay, Tow) if getattr(options, each.section))
     read_results(os.path.join(options.out, RESULTS), options)
-    study = kind(options)
+    study = kind(options, direction)
     found = study.run()
     write_results(study, found)
     return 1 if study.failed else 0

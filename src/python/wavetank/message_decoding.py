@@ -86,9 +86,7 @@ def decode(types, kind, rows):
         same = layout.lengths + [place + n for texts in layout.texts.values() for place, length in texts for n in range(length)]
         alike = (rows[left][:, same] == rows[left[0], same]).all(axis=1)
         which, left = left[alike], left[~alike]
-        numbers = {
-            path: numpy.concatenate([columns(rows[which], *place) for place in places], axis=1) for path, places in layout.numbers.items()
-        }
+        numbers = {path: numpy.concatenate([columns(rows[which], *place) for place in places], axis=1) for path, places in layout.numbers.items()}
         texts = {
             path: [rows[which[0], place : place + length].tobytes().decode("utf-8", "replace") for place, length in places]
             for path, places in layout.texts.items()
@@ -100,3 +98,42 @@ def decode(types, kind, rows):
 def columns(rows, place, kind, count):
     width = kind.itemsize * count
     return numpy.ascontiguousarray(rows[:, place : place + width]).view(kind).reshape(len(rows), count)
+
+
+def read_tree(types, kind, data):
+    """One message as nested dictionaries and lists."""
+    return Tree(types, data).read(kind)
+
+
+class Tree:
+    """A place in the bytes of a message, from which its parts are read one after the other."""
+
+    def __init__(self, types, data):
+        self._types, self._data, self._place = types, data, 0
+
+    def read(self, kind):
+        return {name: self._member(member, count) for name, member, count in self._types[kind]}
+
+    def _take(self, kind, count=1):
+        kind = numpy.dtype(kind)
+        values = numpy.frombuffer(self._data, kind, count, self._place)
+        self._place += kind.itemsize * count
+        return values
+
+    def _member(self, member, count):
+        if count is None:
+            return self._one(member)
+        if count == -1:
+            count = int(self._take("<u4")[0])
+        if member in NUMBERS:
+            return self._take(NUMBERS[member], count)
+        return [self._one(member) for _ in range(count)]
+
+    def _one(self, member):
+        if member in NUMBERS:
+            return self._take(NUMBERS[member])[0]
+        if member == "string":
+            return self._take("u1", int(self._take("<u4")[0])).tobytes().decode("utf-8", "replace")
+        if member in PAIRS:
+            return tuple(int(self._take(NUMBERS[part])[0]) for part in PAIRS[member])
+        return self.read(member)

@@ -4,7 +4,7 @@ import numpy
 
 from wavetank import Failure
 from wavetank.bag_file import BagFile
-from wavetank.message_decoding import decode, read_definition
+from wavetank.message_decoding import decode, read_definition, read_tree
 
 AXES = ("x", "y", "z")
 STATUS_UNITS = {
@@ -141,14 +141,36 @@ class Recording:
             raise Failure("'%s' holds several tanks: choose one of %s by --namespace" % (self.path, ", ".join(found)))
         return found[0]
 
-    def text(self, name):
-        """Of the first std_msgs/String of that name under the namespace, such as "case"; None if there is none."""
+    def _connections(self, name, kind):
         topic = self.namespace.rstrip("/") + "/" + name
-        for number, connection in self._bag.connections.items():
-            if connection.topic == topic and connection.kind == "std_msgs/String":
-                for rows in self._bag.messages({number})[number]:
-                    return rows[0, 4:].tobytes().decode("utf-8", "replace")
+        return [number for number, connection in self._bag.connections.items() if connection.topic == topic and connection.kind == kind]
+
+    def has_cloud(self, name):
+        return bool(self._connections(name, "sensor_msgs/PointCloud2"))
+
+    def first(self, name, kind):
+        """The first message of that name and type under the namespace, as nested dictionaries and lists; None if there is none."""
+        for number in self._connections(name, kind):
+            types = read_definition(kind, self._bag.connections[number].definition)
+            for rows in self._bag.messages({number})[number]:
+                return read_tree(types, kind, rows[0].tobytes())
         return None
+
+    def text(self, name):
+        """Of the first std_msgs/String of that name, such as "case"; None if there is none."""
+        message = self.first(name, "std_msgs/String")
+        return message and message["data"]
+
+    def clouds(self, name):
+        """The point clouds of that name, such as "free_surface", in the order of their stamps: (ns, arrays by field)."""
+        kind = "sensor_msgs/PointCloud2"
+        found = []
+        for number in self._connections(name, kind):
+            types = read_definition(kind, self._bag.connections[number].definition)
+            for rows in joined(self._bag.messages({number})[number]):
+                for values, texts, which in decode(types, kind, rows):
+                    found.extend(zip(stamp_of(values).tolist(), clouds_of(values, texts)))
+        return sorted(found, key=lambda cloud: cloud[0])
 
     def table(self, name):
         """The samples of an instrument, in the order of their stamps."""
@@ -185,3 +207,21 @@ def joined(blocks):
     for rows in blocks:
         by_length.setdefault(rows.shape[1], []).append(rows)
     return [numpy.concatenate(same) for same in by_length.values()]
+
+
+POINT_FIELDS = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
+
+
+def clouds_of(values, texts):
+    """The points of clouds of one length, by field."""
+    kind = numpy.dtype(
+        {
+            "names": texts.get("fields.name", []),
+            "formats": [POINT_FIELDS[int(datatype)] for datatype in values["fields.datatype"][0]] if "fields.datatype" in values else [],
+            "offsets": [int(offset) for offset in values["fields.offset"][0]] if "fields.offset" in values else [],
+            "itemsize": int(values["point_step"][0, 0]),
+        }
+    )
+    for row in values["data"]:
+        points = numpy.ascontiguousarray(row).view(kind)
+        yield {field: points[field] for field in kind.names}

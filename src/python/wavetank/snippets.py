@@ -16,7 +16,7 @@ GZ = {  # added mass, linear and quadratic damping
 
 
 def listed(values):
-    return " ".join("%.6g" % value for value in values)
+    return " ".join("%.6g" % (value or 0.0) for value in values)  # no -0
 
 
 def head(body, coefficients, dimensions):
@@ -55,7 +55,7 @@ def stonefish(body, coefficients, density, dimensions):
     drag = [coefficients.get(direction, {}).get("drag_coefficient") for direction in DIRECTIONS[:3]]
     text = head(body, coefficients, dimensions)
     if not any(value is not None for value in drag):
-        return text + "<!-- Stonefish takes drag coefficients alone, which --tow finds; it computes added mass from the geometry. -->\n"
+        return text + "<!-- Stonefish takes drag coefficients alone, which a tow finds; it computes added mass from the geometry. -->\n"
     # where one was not measured, a bluff body's
     return text + '<!-- 1 stands for a direction that was not towed. -->\n<hydrodynamics quadratic_drag="%s"/>\n' % listed(
         1.0 if value is None else value for value in drag
