@@ -3,8 +3,10 @@
 
 import csv
 import os
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import program_runner
@@ -83,6 +85,19 @@ class Program(ProgramTest):
         anew = self.sweep("--again", *command)
         self.assertIn("it is run anew", anew.stdout)
         self.assertGreater(os.stat(self.path("out/spacing=0.02/out.bag")).st_mtime_ns, written)
+
+    def test_ends_its_run_when_it_is_ended(self):
+        command = [self.case(), "--vary", "fluid/spacing=0.02", "--out", "out", "--duration", "1000", "--set", "numerics/packing/iterations=0"]
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            process = subprocess.Popen([sys.executable, SCRIPT] + command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            begin = time.time()
+            while not os.path.exists(self.path("out/spacing=0.02/out.bag.active")) and time.time() < begin + 60:
+                time.sleep(0.05)
+            process.send_signal(number)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, code)
+            self.assertNotIn("out.bag.active", os.listdir(self.path("out/spacing=0.02")))  # nobody writes it any more
+            self.assertFalse(os.path.exists(self.path("out/spacing=0.02/run.json")))
 
     def test_what_is_wrong_is_one_sentence(self):
         case = self.case()

@@ -48,6 +48,7 @@ class BagFile:
         if bytes(self._data[: len(MAGIC)]) != MAGIC:
             raise Failure("'%s' is no bag: it does not begin with '#ROSBAG V2.0'" % path)
         self.connections = {}
+        self._chunks = None
         try:
             self._read_index()
         except (IndexError, KeyError, ValueError, struct.error):
@@ -103,22 +104,35 @@ class BagFile:
         """Of each connection in `wanted` (a set of ids) its messages as a list of arrays of bytes, a row a message: those of one chunk and length."""
         found = {number: [] for number in wanted}
         try:
-            place, header, chunk = self._records_place, None, None
-            while place < self._index_place:
-                fields, begin, end = self._record(place)
-                if fields["op"][0] == CHUNK:
-                    header, place_of_chunk, chunk = fields, (begin, end), None
-                elif fields["op"][0] == INDEX:
-                    (number,) = struct.unpack("<I", fields["conn"])
-                    if number in found:
-                        if chunk is None:
-                            chunk = self._chunk(header, *place_of_chunk)
-                        offsets = numpy.frombuffer(self._data[begin:end].tobytes(), dtype=[("time", "<u8"), ("offset", "<u4")])["offset"]
-                        found[number].extend(cut(chunk, offsets.astype(numpy.int64)))
-                place = end
+            if self._chunks is None:
+                self._chunks = list(self._scan())
+            for header, begin, end, indices in self._chunks:
+                if not found.keys() & indices.keys():
+                    continue
+                chunk = self._chunk(header, begin, end)
+                for number in found.keys() & indices.keys():
+                    for first, last in indices[number]:
+                        entries = numpy.frombuffer(self._data[first:last].tobytes(), dtype=[("time", "<u8"), ("offset", "<u4")])
+                        found[number].extend(cut(chunk, entries["offset"].astype(numpy.int64)))
         except (IndexError, KeyError, ValueError, struct.error):
             raise self._unreadable()
         return found
+
+    def _scan(self):
+        """Of each chunk its header, where its data begin and end, and by connection where the records of its index do."""
+        place, chunk = self._records_place, None
+        while place < self._index_place:
+            fields, begin, end = self._record(place)
+            if fields["op"][0] == CHUNK:
+                if chunk:
+                    yield chunk
+                chunk = (fields, begin, end, {})
+            elif fields["op"][0] == INDEX:
+                (number,) = struct.unpack("<I", fields["conn"])
+                chunk[3].setdefault(number, []).append((begin, end))
+            place = end
+        if chunk:
+            yield chunk
 
     def _chunk(self, header, begin, end):
         data = self._data[begin:end]

@@ -75,7 +75,7 @@ class Study:
         return {result.run.name: Recording(result.bag) for result in results if result.exit_code == 0}
 
     def name(self, *words, spacing=None):
-        return "_".join(words) + ("_spacing=%g" % spacing if spacing is not None else "")
+        return "_".join(words) + ("_spacing=%.9g" % spacing if spacing is not None else "")
 
     def tell_blockage(self):
         axis = 2 if self.turns else self.axis
@@ -149,7 +149,9 @@ class Oscillation(Study):
         ends = {period: (options.rise + options.wait + options.cycles) * period for period in self.periods}
         back = {period: self.tell_waves(period, ends[period]) for period in self.periods}
         names = {
-            (period, spacing): self.name("oscillate", self.direction, "T=%g" % period, spacing=spacing) for spacing in self.spacings for period in self.periods
+            (period, spacing): self.name("oscillate", self.direction, "T=%.9g" % period, spacing=spacing)
+            for spacing in self.spacings
+            for period in self.periods
         }
         recordings = self.do({
             name: self.case.oscillating(self.direction, self.amplitude, period, options.rise * period, ends[period] + 0.03 * period, spacing)
@@ -299,7 +301,7 @@ class Tow(Study):
     def run(self):
         blockage = self.tell_blockage()
         print("tow over %.4g m, forces from the last half of constant speed" % self.distance)
-        names = {(speed, spacing): self.name("tow", self.direction, "U=%g" % speed, spacing=spacing) for spacing in self.spacings for speed in self.speeds}
+        names = {(speed, spacing): self.name("tow", self.direction, "U=%.9g" % speed, spacing=spacing) for spacing in self.spacings for speed in self.speeds}
         cases, begins = {}, {}
         for (speed, spacing), name in names.items():
             record, end, start = self._record(speed, name)

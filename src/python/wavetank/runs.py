@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -174,11 +175,13 @@ class Runner:
             command += ["--set", "%s=%s" % (key, value)]
         began = time.time()
         with open(os.path.join(folder, LOG), "w", encoding="utf-8") as log:
-            process = subprocess.Popen(command + run.options, stdout=log, stderr=subprocess.PIPE, universal_newlines=True)
+            # in a session of its own, so that Ctrl-C does not reach it by itself
+            process = subprocess.Popen(command + run.options, stdout=log, stderr=subprocess.PIPE, universal_newlines=True, start_new_session=True)
             try:
                 complaints = process.communicate()[1]
-            except KeyboardInterrupt:
-                process.communicate()  # Ctrl-C reaches it too, and it ends with a whole bag
+            except BaseException:
+                process.send_signal(signal.SIGINT)  # it ends after the step in progress, with a whole bag
+                process.communicate()
                 raise
             log.write(complaints)
         if process.returncode in INTERRUPTED:
