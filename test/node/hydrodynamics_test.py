@@ -155,6 +155,10 @@ class Cases(ProgramTest):
         self.assertEqual(case.tree["fluid"]["particles"], 500)
         self.assertNotIn("spacing", case.tree["fluid"])
         self.assertEqual(case.body["density"], 300)
+        with open(case.path, "a") as file:
+            file.write("real_time_factor: 1e-3\n")  # text to PyYAML by itself
+        self.assertEqual(BodyCase(case.path, "hull", [("fluid/viscosity", "2E-3")]).tree["real_time_factor"], 0.001)
+        self.assertEqual(BodyCase(case.path, "hull", [("fluid/viscosity", "2E-3")]).tree["fluid"]["viscosity"], 0.002)
         with self.assertRaisesRegex(Failure, "--set bodies/7/mass=1 does not fit the case"):
             BodyCase(self.case(bodies=[BOX]), "hull", [("bodies/7/mass", "1")])
 

@@ -42,7 +42,7 @@ class BagFile:
         self.path = path
         self._check_there()
         try:
-            self._data = numpy.memmap(path, dtype=numpy.uint8, mode="r") if os.path.getsize(path) else numpy.empty(0, numpy.uint8)
+            self._data = numpy.asarray(numpy.memmap(path, dtype=numpy.uint8, mode="r")) if os.path.getsize(path) else numpy.empty(0, numpy.uint8)
         except OSError as error:
             raise Failure("'%s' cannot be read as a bag: %s" % (path, error.strerror or error))
         if bytes(self._data[: len(MAGIC)]) != MAGIC:

@@ -9,7 +9,7 @@ import yaml
 
 from wavetank import Failure
 from wavetank.rotations import angles_of_matrix, matrix_of, turn_about
-from wavetank.runs import local_path, named_files, read_case
+from wavetank.runs import local_path, named_files, read_case, read_yaml
 
 SHIFTS, TURNS = ("surge", "sway", "heave"), ("roll", "pitch", "yaw")
 DIRECTIONS = SHIFTS + TURNS
@@ -61,7 +61,7 @@ class BodyCase:
             if key in ("fluid/spacing", "fluid/particles"):
                 for other in ("spacing", "particles"):
                     self.tree.setdefault("fluid", {}).pop(other, None)
-            set_key(self.tree, key, yaml.safe_load(text))
+            set_key(self.tree, key, read_yaml(text))
         except (AttributeError, IndexError, KeyError, TypeError, ValueError, yaml.YAMLError):
             raise Failure("--set %s=%s does not fit the case '%s'" % (key, text, self.path))
 

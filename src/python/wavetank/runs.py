@@ -20,6 +20,17 @@ INTERRUPTED = (130, 143, -2, -15)
 FILE_KEYS = ("mesh", "file", "urdf")
 
 
+class Loader(yaml.SafeLoader):
+    """Takes 1e-3 for a number, as wavetank does, which PyYAML takes for text."""
+
+
+Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+$"), list("-+.0123456789"))
+
+
+def read_yaml(text):
+    return yaml.load(text, Loader)
+
+
 class Run:
     """One run: a name, which is its folder's, the case's file, what is set (pairs of key and value, as text), and options of wavetank_run."""
 
@@ -50,7 +61,7 @@ def read_case(path):
     """The case's tree, as it is written. Raises Failure."""
     try:
         with open(path, encoding="utf-8") as file:
-            tree = yaml.safe_load(file)
+            tree = read_yaml(file)
     except OSError as error:
         raise Failure("the case '%s' cannot be read: %s" % (path, error.strerror))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
