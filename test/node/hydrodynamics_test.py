@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """hydrodynamics: its fits on signals whose coefficients are known, the cases that it makes, what it refuses, and a run of a small box."""
 
+import contextlib
+import io
 import math
 import os
 import subprocess
@@ -14,6 +16,7 @@ import yaml
 from program_runner import PACKAGE, ProgramTest
 from wavetank import Failure, fits, snippets
 from wavetank.body_cases import BodyCase
+from wavetank.hydrodynamics import judged
 from wavetank.linear_waves import group_speed
 from wavetank.rotations import angles_of_matrix, matrix_of
 
@@ -110,6 +113,16 @@ class Drags(unittest.TestCase):
         self.assertAlmostEqual(found["linear"], 3.0, delta=1e-12)
         self.assertAlmostEqual(found["quadratic"], 7.0, delta=1e-12)
         self.assertEqual(fits.fit_drag([2.0], [28.0])["quadratic"], 7.0)
+
+
+class Convergence(unittest.TestCase):
+    def test_more_than_a_tenth_is_told(self):
+        with contextlib.redirect_stdout(io.StringIO()) as told:
+            self.assertTrue(judged({"period": 0.8, "added_mass_change": 0.09, "damping_change": 0.02})["converged"])
+        self.assertEqual(told.getvalue(), "")
+        with contextlib.redirect_stdout(io.StringIO()) as told:
+            self.assertFalse(judged({"period": 0.8, "added_mass_change": 0.02, "damping_change": 0.31})["converged"])
+        self.assertEqual(told.getvalue(), "not converged at period 0.8: damping differs by 31 % between the two finest spacings\n")
 
 
 class Theory(unittest.TestCase):
@@ -235,6 +248,18 @@ class Program(ProgramTest):
             with open(self.path("out/" + name)) as file:
                 xml.dom.minidom.parseString("<all>%s</all>" % file.read())
         self.assertEqual(self.hydrodynamics(*command).stdout.count("done before"), 3)
+
+        # a tow into the same folder adds to what is there
+        done = self.hydrodynamics(case, "--body", "hull", "--tow", "surge", "--speeds", "0.5", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("tow over 0.1 m", done.stdout)
+        with open(self.path("out/hydrodynamics.yaml")) as file:
+            both = yaml.safe_load(file)
+        self.assertEqual(both["oscillate"], found["oscillate"])
+        (towed,) = both["tow"]["surge"]["results"]
+        self.assertGreater(towed["drag"], 0.0)
+        self.assertAlmostEqual(towed["drag"], towed["drag_coefficient"] * 0.5 * 1000 * 0.5**2 * 0.1, delta=1e-9 * towed["drag"])
+        self.assertAlmostEqual(both["coefficients"]["surge"]["quadratic"], towed["drag"] / 0.5**2, delta=1e-9 * towed["drag"])
 
     def test_what_is_wrong_is_one_sentence(self):
         case = self.case(bodies=[BOX])
