@@ -65,6 +65,10 @@ class BodyCase:
         except (AttributeError, IndexError, KeyError, TypeError, ValueError, yaml.YAMLError):
             raise Failure("--set %s=%s does not fit the case '%s'" % (key, text, self.path))
 
+    def density(self):
+        """Of the water at rest, kg/m³."""
+        return float((self.tree.get("fluid") or {}).get("density", 1000.0))
+
     @property
     def body(self):
         return self.tree["bodies"][self.index]

@@ -140,39 +140,38 @@ class Oscillation(Study):
         return self.amplitude
 
     def run(self):
-        options = self.options
         reach = self.amplitude * (0.5 * float(self.facts.body.max()) if self.turns else 1.0)
         if reach < self.facts.spacing:
             print("the body moves by %.3g spacings to either side; forces are coarse below one" % (reach / self.facts.spacing))
         blockage = self.tell_blockage()
         stiffness = self.stiffness()
-        ends = {period: (options.rise + options.wait + options.cycles) * period for period in self.periods}
-        back = {period: self.tell_waves(period, ends[period]) for period in self.periods}
-        names = {
-            (period, spacing): self.name("oscillate", self.direction, "T=%.9g" % period, spacing=spacing)
-            for spacing in self.spacings
-            for period in self.periods
-        }
-        recordings = self.do({
-            name: self.case.oscillating(self.direction, self.amplitude, period, options.rise * period, ends[period] + 0.03 * period, spacing)
-            for (period, spacing), name in names.items()
-        })  # fmt: skip
-        rows = []
-        for (period, spacing), name in names.items():
-            if name not in recordings:
-                continue
-            motion, force = (of(recordings[name], self.case.name, self.direction) for of in (motion_of, force_on))
-            first = (options.rise + options.wait) * period
-            row = {"period": period}
-            row.update({} if spacing is None else {"spacing": spacing})
-            row.update(fits.fit_oscillation(motion, force, period, first, ends[period], stiffness[spacing]))
-            row["waves_return_after"] = back[period]
-            rows.append(row)
+        back = {period: self.tell_waves(period, self.end(period)) for period in self.periods}
+        each = [(period, spacing) for spacing in self.spacings for period in self.periods]
+        names = [self.name("oscillate", self.direction, "T=%.9g" % period, spacing=spacing) for period, spacing in each]
+        recordings = self.do({name: self.swinging(*which) for name, which in zip(names, each)})
+        rows = [
+            dict(self.row_of(recordings[name], period, spacing, stiffness[spacing]), waves_return_after=back[period])
+            for name, (period, spacing) in zip(names, each)
+            if name in recordings
+        ]
         print_rows(rows, ("period", "spacing", "added_mass", "damping", "residual", "second_harmonic"))
         found = {"amplitude": self.amplitude, "blockage": blockage, "results": rows}
         found["hydrostatic_stiffness"] = {("as given" if spacing is None else "%g" % spacing): value for spacing, value in stiffness.items()}
         found["convergence"] = self.convergence(rows)
         return found
+
+    def end(self, period):
+        """Of what is fitted, s."""
+        return (self.options.rise + self.options.wait + self.options.cycles) * period
+
+    def swinging(self, period, spacing):
+        # a little longer, so that the last sample is there
+        return self.case.oscillating(self.direction, self.amplitude, period, self.options.rise * period, self.end(period) + 0.03 * period, spacing)
+
+    def row_of(self, recording, period, spacing, stiffness):
+        motion, force = (of(recording, self.case.name, self.direction) for of in (motion_of, force_on))
+        first = (self.options.rise + self.options.wait) * period
+        return dict(noted(period=period, spacing=spacing), **fits.fit_oscillation(motion, force, period, first, self.end(period), stiffness))
 
     def convergence(self, rows):
         if len(self.spacings) < 2:
@@ -224,26 +223,24 @@ class Decay(Study):
         stiffness = self.stiffness()
         names = {spacing: self.name("decay", self.direction, spacing=spacing) for spacing in self.spacings}
         recordings = self.do({name: self.case.released(self.direction, self.displacement, self.options.duration, spacing) for spacing, name in names.items()})
-        rows = []
-        for spacing, name in names.items():
-            if name not in recordings:
-                continue
-            row = {} if spacing is None else {"spacing": spacing}
-            row.update(fits.fit_decay(*motion_of(recordings[name], self.case.name, self.direction)))
-            inertia = stiffness[spacing] / row["stiffness_over_mass"]  # with that of the water
-            row.update(inertia_with_water=inertia, linear_damping=row["linear"] * inertia, quadratic_damping=row["quadratic"] * inertia)
-            if self.facts.mass and not self.turns:
-                row["added_mass"] = inertia - self.facts.mass
-            row["waves_return_after"] = self.tell_waves(row["period"], self.options.duration)
-            if row["swings"] < 4:
-                print("in %d half swings linear and quadratic damping are hardly told apart" % row["swings"])
-            rows.append(row)
+        rows = [self.row_of(recordings[name], spacing, stiffness[spacing]) for spacing, name in names.items() if name in recordings]
         print_rows(rows, ("spacing", "period", "linear", "quadratic", "inertia_with_water", "added_mass", "swings", "residual"))
         found = {"displacement": self.displacement, "blockage": blockage, "results": rows, "convergence": "not looked at: give two --spacings"}
         if len(rows) > 1:
             coarser, finer = rows[-2:]
             found["convergence"] = [judged({"period_change": abs(coarser["period"] / finer["period"] - 1)})]
         return found
+
+    def row_of(self, recording, spacing, stiffness):
+        row = dict(noted(spacing=spacing), **fits.fit_decay(*motion_of(recording, self.case.name, self.direction)))
+        inertia = stiffness / row["stiffness_over_mass"]  # with that of the water
+        row.update(inertia_with_water=inertia, linear_damping=row["linear"] * inertia, quadratic_damping=row["quadratic"] * inertia)
+        if self.facts.mass and not self.turns:
+            row["added_mass"] = inertia - self.facts.mass
+        row["waves_return_after"] = self.tell_waves(row["period"], self.options.duration)
+        if row["swings"] < 4:
+            print("in %d half swings linear and quadratic damping are hardly told apart" % row["swings"])
+        return row
 
     def coefficients(self, found):
         if not found["results"]:
@@ -308,21 +305,20 @@ class Tow(Study):
             cases[name] = self.case.towed(self.direction, record, end, spacing)
             begins[name] = 0.5 * (start + end)
         recordings = self.do(cases)
-        area, density = self.facts.across(self.axis)[0], float((self.case.tree.get("fluid") or {}).get("density", 1000.0))
-        rows = []
-        for (speed, spacing), name in names.items():
-            if name not in recordings:
-                continue
-            times, forces = force_on(recordings[name], self.case.name, self.direction)
-            wanted = forces[times >= begins[name]]
-            row = {"speed": speed, "drag": float(-wanted.mean()), "standard_deviation": float(wanted.std())}
-            row.update({} if spacing is None else {"spacing": spacing})
-            row["drag_coefficient"] = row["drag"] / (0.5 * density * speed * abs(speed) * area)
-            rows.append(row)
+        area = self.facts.across(self.axis)[0]
+        rows = [self.row_of(recordings[name], speed, spacing, begins[name], area) for (speed, spacing), name in names.items() if name in recordings]
         print_rows(rows, ("speed", "spacing", "drag", "standard_deviation", "drag_coefficient"))
         found = {"distance": self.distance, "blockage": blockage, "area_across": area, "results": rows, "fits": self.fitted(rows)}
         found["convergence"] = self.convergence(rows)
         return found
+
+    def row_of(self, recording, speed, spacing, begin, area):
+        times, forces = force_on(recording, self.case.name, self.direction)
+        forces = forces[times >= begin]
+        drag = float(-forces.mean())
+        row = noted(speed=speed, spacing=spacing, drag=drag, standard_deviation=float(forces.std()))
+        row["drag_coefficient"] = drag / (0.5 * self.case.density() * speed * abs(speed) * area)
+        return row
 
     def fitted(self, rows):
         result = []
@@ -330,7 +326,7 @@ class Tow(Study):
             ours = [row for row in rows if row.get("spacing") == spacing]
             if ours:
                 fit = fits.fit_drag([row["speed"] for row in ours], [row["drag"] for row in ours])
-                result.append(dict({} if spacing is None else {"spacing": spacing}, **fit))
+                result.append(dict(noted(spacing=spacing), **fit))
         print_rows(result, ("spacing", "linear", "quadratic", "residual"))
         return result
 
@@ -353,6 +349,11 @@ class Tow(Study):
             "linear": fit["linear"], "quadratic": fit["quadratic"], "drag_coefficient": row["drag_coefficient"],
             "from": "%s: tow up to %g m/s" % (self.direction, max(self.speeds, key=abs)),
         }  # fmt: skip
+
+
+def noted(**values):
+    """What there is of them."""
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def judged(change):
@@ -395,7 +396,7 @@ def write_results(study, found):
     options = study.options
     path = os.path.join(options.out, RESULTS)
     whole = read_results(path, options)
-    density = float((study.case.tree.get("fluid") or {}).get("density", 1000.0))
+    density = study.case.density()
     whole.update(body=options.body, case=os.path.abspath(options.case), dimensions=study.case.dimensions, density=density)
     whole["units"] = "SI, angles in rad" + ("; of one metre of width" if study.case.dimensions == 2 else "")
     whole.setdefault(study.section, {})[study.direction] = found
