@@ -97,7 +97,7 @@ class Reflection(unittest.TestCase):
     def test_half_a_wavelength_is_refused(self):
         half = math.pi / reflection.wave_number(0.8, DEPTH)
         gauges = [gauge(str(k), k * half, travelling(0.05, 0.8, k * half)) for k in range(3)]
-        with self.assertRaisesRegex(reflection.waves.Failure, "cannot tell"):
+        with self.assertRaisesRegex(reflection.Failure, "cannot tell"):
             reflection.part(gauges, DEPTH)
 
 
@@ -143,7 +143,7 @@ class Programs(unittest.TestCase):
             ("waves", ["/no/such.bag"], "waves: there is no bag '/no/such.bag'"),
             ("waves", [self.bag, "--gauge", "d"], "holds no gauge d, only a, b, c"),
             ("waves", [self.bag, "--from", "70"], "has only 0 samples in that time"),
-            ("waves", [self.bag, "--namespace", "pool"], "holds no wave gauges under /pool"),
+            ("waves", [self.bag, "--namespace", "pool"], "holds nothing of /pool, only of /wavetank"),
             ("reflection", [self.bag, "--gauges", "a", "b"], "three gauges at least must be named by --gauges, but 2 are"),
             ("reflection", [self.bag, "--gauges", "a", "b", "c", "--depth", "-1"], "the depth is -1 m; it must be greater than 0"),
         ):

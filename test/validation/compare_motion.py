@@ -200,17 +200,10 @@ def read_motions(bag):
 
 def read_status(bag):
     """Records of the fluid's energies (J), mass (kg) and greatest speed (m/s) by the message's names, from the bag's status messages."""
-    import rosbag
+    from wavetank import read_tables
 
-    names = ("kinetic_energy", "potential_energy", "compression_energy", "mass", "greatest_speed", "guard_hits")
-    with rosbag.Bag(bag) as messages:
-        rows = [
-            [message.time] + [getattr(message, name) for name in names]
-            for topic, message, _ in messages.read_messages()
-            if topic.endswith("/status")
-        ]
-    columns = numpy.asarray(rows, dtype=float).reshape(-1, 1 + len(names)).T
-    return {name: Record(columns[0], column) for name, column in zip(names, columns[1:])}
+    status = read_tables(bag, wanted=lambda name: name == "status")["status"].columns
+    return {name: Record(status["simulated_time"], column) for name, column in status.items()}
 
 
 def draw(path, panels):

@@ -63,18 +63,12 @@ def case_of(particles, width):
 
 
 def coefficients_of(bag):
-    import rosbag
+    from wavetank.recording import Recording
 
-    times, forces = [], []
-    with rosbag.Bag(bag) as messages:
-        start = messages.get_start_time()
-        for topic, message, _ in messages.read_messages():
-            if topic.endswith("bodies/cylinder/wrench"):
-                times.append(message.header.stamp.to_sec() - start)
-                forces.append((message.wrench.force.x, message.wrench.force.z))
-    times = numpy.array(times) * SPEED / DIAMETER
-    wanted = times >= FIRST
-    drag, lift = numpy.array(forces)[wanted].T / (0.5 * DENSITY * SPEED**2 * DIAMETER)
+    wrench = Recording(bag).table("bodies/cylinder/wrench")
+    times = wrench.times * SPEED / DIAMETER
+    wanted = times > FIRST + 1e-6
+    drag, lift = wrench.array("force_x", "force_z")[wanted].T / (0.5 * DENSITY * SPEED**2 * DIAMETER)
     lift = lift - lift.mean()
     zeros = 16 * len(lift)
     spectrum = abs(numpy.fft.rfft(lift * numpy.hanning(len(lift)), zeros))

@@ -67,15 +67,10 @@ def case_of(reynolds, spacing, roughness, mesh):
 
 
 def friction_of(bag):
-    import rosbag
+    from wavetank.recording import Recording
 
-    forces = []
-    with rosbag.Bag(bag) as messages:
-        start = messages.get_start_time()
-        for topic, message, _ in messages.read_messages():
-            if topic.endswith("bodies/plate/wrench/viscous") and FIRST <= message.header.stamp.to_sec() - start <= LAST:
-                forces.append(message.wrench.force.x)
-    return sum(forces) / len(forces)
+    wrench = Recording(bag).table("bodies/plate/wrench/viscous")
+    return wrench.columns["force_x"][(wrench.times > FIRST) & (wrench.times <= LAST)].mean()
 
 
 def line_of(reynolds, roughness):

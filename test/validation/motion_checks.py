@@ -25,13 +25,12 @@ GRAVITY = 9.81  # m/s²
 
 def case_of(bag):
     """The case as it was run, every default filled in."""
-    import rosbag
+    from wavetank.recording import Recording
 
-    with rosbag.Bag(bag) as messages:
-        for topic, message, _ in messages.read_messages():
-            if topic.endswith("/case"):
-                return yaml.safe_load(message.data[message.data.index("title:") :])
-    raise compare.Failure("'%s' does not hold its case" % bag)
+    case = yaml.safe_load(Recording(bag).text("case") or "")
+    if not case:
+        raise compare.Failure("'%s' does not hold its case" % bag)
+    return case
 
 
 def percent(part):
@@ -231,14 +230,13 @@ def pile(bag, picture, table):
 
 
 def submerged(bag, picture, table):
-    import rosbag
+    from wavetank.recording import Recording
 
     case = case_of(bag)
     side = numpy.diff(box_of(case["bodies"][0]), axis=0)[0]
     expected = case["fluid"]["density"] * GRAVITY * float(side.prod())
-    with rosbag.Bag(bag) as messages:
-        rows = [(m.header.stamp.to_sec(), m.wrench.force.z) for topic, m, _ in messages.read_messages() if topic.endswith("/bodies/cube/wrench")]
-    force = compare.Record(*zip(*rows))
+    wrench = Recording(bag).table("bodies/cube/wrench")
+    force = compare.Record(wrench.times, wrench.columns["force_z"])
     settled = force.between(0.2 * force.times[-1], force.times[-1]).values
     name = "%.0f particles across: " % (side[0] / case["fluid"]["spacing"])
     error, deviation = settled.mean() / expected - 1, settled.std() / expected

@@ -73,16 +73,10 @@ def case_of(period, height, spacing, order):
 
 
 def levels_of(bag):
-    import rosbag
+    from wavetank.recording import Recording
 
-    times, levels = [], []
-    with rosbag.Bag(bag) as messages:
-        start = messages.get_start_time()
-        for topic, message, _ in messages.read_messages():
-            if topic.endswith("/gauges"):
-                times.append(message.header.stamp.to_sec() - start)
-                levels.append(message.levels)
-    return numpy.array(times), numpy.array(levels)
+    gauges = Recording(bag).table("gauges")
+    return gauges.times, gauges.array(*gauges.columns)
 
 
 def harmonics(times, levels, period):

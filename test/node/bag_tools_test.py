@@ -1,0 +1,290 @@
+#!/usr/bin/env python3
+"""The reader of bags, against bags made here whose every bit is known, and export as a user runs it."""
+
+import csv
+import glob
+import math
+import os
+import py_compile
+import re
+import resource
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.dom.minidom
+
+import numpy
+import rosbag
+import rospy
+import wavetank
+from geometry_msgs.msg import Point, WrenchStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState, PointCloud2, PointField
+from std_msgs.msg import String
+from visualization_msgs.msg import Marker, MarkerArray
+from wavetank.msg import OpeningFlow, ProbeArray, SolverStatus, WaveGaugeArray
+from wavetank.recording import Recording
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "scripts")
+COUNT = 500
+RANDOM = numpy.random.default_rng(20).integers(0, 2**64, (COUNT, 8), dtype=numpy.uint64).view(numpy.float64)  # any bits: infinities, denormals
+RANDOM[numpy.isnan(RANDOM)] = -0.0
+
+try:
+    import pandas
+except ImportError:
+    pandas = None
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
+
+def same_bits(a, b):
+    return numpy.asarray(a, dtype=float).tobytes() == numpy.asarray(b, dtype=float).tobytes()
+
+
+def read_vtp(path):
+    """Arrays of a file of polygons by name, and how many cells there are of each kind, by the format's own description."""
+    with open(path, "rb") as file:
+        head, _, raw = file.read().partition(b'<AppendedData encoding="raw">\n_')
+    arrays = {}
+    for kind, name, width, offset in re.findall(rb'<DataArray type="(\w+)" Name="(\w+)" NumberOfComponents="(\d)" format="appended" offset="(\d+)"/>', head):
+        (length,) = struct.unpack_from("<Q", raw, int(offset))
+        values = numpy.frombuffer(raw, {b"Float32": "<f4", b"Int64": "<i8"}[kind], offset=int(offset) + 8, count=length // (4 if kind == b"Float32" else 8))
+        arrays[name.decode()] = values.reshape(-1, int(width)) if width != b"1" else values
+    return arrays, {kind.decode(): int(count) for kind, count in re.findall(rb'NumberOf(\w+)="(\d+)"', head)}
+
+
+def stamped(message, milliseconds):
+    message.header.stamp = rospy.Time(milliseconds // 1000, milliseconds % 1000 * 1000000)
+    message.header.frame_id = "tank"
+    return message
+
+
+def write_tank(bag, namespace, order):
+    """Every kind of instrument, n-th sample at n ms, written in this order."""
+    bag.write(namespace + "/case", String("title: made here"), rospy.Time(0, 1))
+    for n in order:
+        at = rospy.Time.from_sec(0.001 * (n + 1))
+        row = RANDOM[n].tolist()
+        probes = ProbeArray(names=["P%d" % k for k in range(8)], pressures=row, positions=[Point(k, 0, 0.5) for k in range(8)])
+        bag.write(namespace + "/probes", stamped(probes, n), at)
+        bag.write(namespace + "/gauges", stamped(WaveGaugeArray(names=["left", "right"], levels=row[:2], positions=[Point(1, 2, 3)] * 2), n), at)
+        wrench = stamped(WrenchStamped(), n)
+        wrench.wrench.force.x, wrench.wrench.torque.z = row[2], row[3]
+        bag.write(namespace + "/bodies/hull/wrench", wrench, at)
+        odometry = stamped(Odometry(), n)
+        odometry.pose.pose.position.y, odometry.twist.twist.angular.z = row[4], row[5]
+        bag.write(namespace + "/bodies/hull/odom", odometry, at)
+        bag.write(namespace + "/openings/hose/flow", stamped(OpeningFlow(discharge=row[6], volume=row[7]), n), at)
+        bag.write(namespace + "/joint_states", stamped(JointState(name=["elbow"], position=row[:1], velocity=row[1:2], effort=row[2:3]), n), at)
+        status = SolverStatus(title="made here", time=0.001 * n, step=n, kinetic_energy=row[0], failure="burst" if n == COUNT - 1 else "")
+        bag.write(namespace + "/status", stamped(status, n), at)
+
+
+class BagTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.bag = cls.path("one.bag")
+        order = list(range(COUNT))
+        order[10:20] = reversed(order[10:20])  # as a bag recorded over topics may have it
+        with rosbag.Bag(cls.bag, "w", chunk_threshold=20000) as bag:
+            write_tank(bag, "/wavetank", order)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+
+class Reader(BagTest):
+    def test_has_the_bits_of_every_instrument_in_the_order_of_time(self):
+        tables = wavetank.read_tables(self.bag)
+        self.assertEqual(list(tables), ["probes", "gauges", "bodies/hull/odom", "bodies/hull/wrench", "openings/hose/flow", "joint_states", "status"])
+        for name, column, number in (
+            ("probes", "P7", 7),
+            ("gauges", "right", 1),
+            ("bodies/hull/odom", "position_y", 4),
+            ("bodies/hull/odom", "angular_velocity_z", 5),
+            ("bodies/hull/wrench", "force_x", 2),
+            ("bodies/hull/wrench", "torque_z", 3),
+            ("openings/hose/flow", "discharge", 6),
+            ("joint_states", "elbow effort", 2),
+            ("status", "kinetic_energy", 0),
+        ):
+            self.assertTrue(same_bits(tables[name].columns[column], RANDOM[:, number]), "%s of %s" % (column, name))
+        for table in tables.values():
+            self.assertEqual(table.stamps.tolist(), [n * 1000000 for n in range(COUNT)])
+            self.assertEqual(table.times.tolist(), [float("0.%03d" % n) for n in range(COUNT)])
+        self.assertEqual(tables["probes"].positions["P3"], (3.0, 0.0, 0.5))
+        self.assertEqual(tables["probes"].units["P3"], "Pa")
+        self.assertEqual(tables["status"].columns["step"].tolist(), list(range(COUNT)))
+        self.assertEqual(tables["status"].texts["failure"], "burst")
+        self.assertEqual(Recording(self.bag).text("case"), "title: made here")
+
+    def test_reads_compressed_bags(self):
+        packed = self.path("packed.bag")
+        with rosbag.Bag(packed, "w", compression=rosbag.Compression.BZ2) as bag:
+            write_tank(bag, "/wavetank", range(COUNT))
+        self.assertTrue(same_bits(wavetank.read_tables(packed)["probes"].columns["P0"], RANDOM[:, 0]))
+
+    def test_takes_the_tank_that_is_named(self):
+        two = self.path("two.bag")
+        with rosbag.Bag(two, "w") as bag:
+            write_tank(bag, "/first", range(3))
+            write_tank(bag, "/lab/second", range(5))
+        self.assertEqual(len(wavetank.read_tables(two, "lab/second")["probes"]), 5)
+        with self.assertRaisesRegex(wavetank.Failure, "several tanks: choose one of /first, /lab/second by --namespace"):
+            wavetank.read_tables(two)
+
+    def test_what_cannot_be_read_is_one_sentence(self):
+        unfinished, text, empty = self.path("died.bag.active"), self.path("text.bag"), self.path("empty.bag")
+        bag = rosbag.Bag(self.path("cut.bag"), "w")
+        write_tank(bag, "/wavetank", range(3))
+        bag.flush()
+        shutil.copy(self.path("cut.bag"), unfinished)
+        bag.close()
+        with open(unfinished, "r+b") as file:  # as a run that was killed leaves it: no index yet
+            content = file.read()
+            place = content.index(b"index_pos=") + len(b"index_pos=")
+            file.seek(place)
+            file.write(struct.pack("<Q", 0))
+        with open(text, "w") as file:
+            file.write("no bag\n")
+        open(empty, "w").close()
+        for path, words in (
+            (self.path("none.bag"), "there is no bag '.*none.bag'$"),
+            (self.path("died.bag"), "there is no bag '.*died.bag' but '.*died.bag.active': it is being written, or the run .* died; .*rosbag reindex"),
+            (unfinished, "is not whole: it is being written, or .* rosbag reindex makes it readable"),
+            (self.folder, "is a folder, not a bag"),
+            (text, "is no bag: it does not begin with '#ROSBAG V2.0'"),
+            (empty, "is no bag"),
+        ):
+            with self.assertRaisesRegex(wavetank.Failure, words) as caught:
+                wavetank.read_tables(path)
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        with open(self.bag, "rb") as whole, open(self.path("half.bag"), "wb") as half:
+            half.write(whole.read()[:40000])
+        with self.assertRaisesRegex(wavetank.Failure, "is not whole and has no index: rosbag reindex makes it readable"):
+            wavetank.read_tables(self.path("half.bag"))
+
+    @unittest.skipUnless(pandas, "python3-pandas is not installed: scripts/install --tools")
+    def test_gives_data_frames(self):
+        frames = wavetank.read_bag(self.bag)
+        self.assertTrue(same_bits(frames["probes"]["P5"], RANDOM[:, 5]))
+        self.assertEqual(frames["probes"].index.name, "time")
+        self.assertEqual(frames["probes"].index[7], 0.007)
+        self.assertEqual(frames["gauges"].attrs["units"], {"left": "m", "right": "m"})
+
+
+class Export(BagTest):
+    def run_export(self, *arguments):
+        return subprocess.run(
+            [sys.executable, os.path.join(SCRIPTS, "export")] + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True
+        )
+
+    def test_csv_has_units_and_every_bit(self):
+        out = self.path("csv")
+        done = self.run_export(self.bag, "--csv", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(glob.glob(os.path.join(out, "*.csv"))), 7)
+        with open(os.path.join(out, "probes.csv"), newline="") as file:
+            head, *rows = csv.reader(file)
+        self.assertEqual(head, ["time (s)"] + ["P%d (Pa)" % k for k in range(8)])
+        self.assertEqual([row[0] for row in rows[:3]], ["0", "0.001", "0.002"])
+        self.assertTrue(same_bits([[float(cell) for cell in row[1:]] for row in rows], RANDOM))
+        if pandas:
+            frame = pandas.read_csv(os.path.join(out, "probes.csv"), float_precision="round_trip")
+            self.assertTrue(same_bits(frame.iloc[:, 1:].to_numpy(), RANDOM))
+
+    @unittest.skipUnless(h5py, "python3-h5py is not installed: scripts/install --tools")
+    def test_hdf5_has_units_and_every_bit(self):
+        out = self.path("out.h5")
+        done = self.run_export(self.bag, "--hdf5", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(out, "r") as file:
+            self.assertTrue(same_bits(file["bodies/hull/wrench/force_x"][()], RANDOM[:, 2]))
+            self.assertEqual(file["probes/P1"].attrs["unit"], "Pa")
+            self.assertEqual(file["probes/P1"].attrs["position"].tolist(), [1.0, 0.0, 0.5])
+            self.assertEqual(file["probes/_stamp"][3], 3000000)
+
+    def test_long_records_take_little_time_and_memory(self):
+        # a quarter of 25 000 samples; measured for all of them in docs/tools.md
+        bag_path, count = self.path("long.bag"), 6250
+        message = ProbeArray(names=["P%d" % k for k in range(8)], positions=[Point()] * 8)
+        with rosbag.Bag(bag_path, "w") as bag:
+            for n in range(count):
+                message.pressures = (math.pi * (n + numpy.arange(8))).tolist()
+                bag.write("/wavetank/probes", stamped(message, n), rospy.Time.from_sec(0.001 * (n + 1)))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertEqual(self.run_export(bag_path, "--csv", self.path("long")).returncode, 0)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime - before.ru_utime, 2.5)
+        self.assertLess(after.ru_maxrss, 300 * 1024)
+
+    def test_vtk_has_points_fields_and_bodies_where_they_are(self):
+        source, out = self.path("cloud.bag"), self.path("vtk")
+        points = numpy.array([[1, 2, 3, 4, 5, 6, 7], [8, 9, 10, 11, 12, 13, 14]], dtype="<f4")
+        cloud = PointCloud2(
+            height=1, point_step=28, fields=[PointField(name, 4 * n, PointField.FLOAT32, 1) for n, name in enumerate("x y z vx vy vz pressure".split())]
+        )
+        triangle = [Point(0, 0, 0), Point(1, 0, 0), Point(0, 0, 1)]
+        markers = [Marker(ns="tank", type=Marker.TRIANGLE_LIST, points=triangle), Marker(ns="bodies", id=0, type=Marker.TRIANGLE_LIST, points=triangle)]
+        markers[1].header.frame_id = "tank/bodies/hull"
+        for marker in markers:
+            marker.pose.orientation.w = 1.0
+        markers[1].pose.position.x = -0.5  # from the body's frame to its mesh
+        with rosbag.Bag(source, "w") as bag:
+            bag.write("/wavetank/case", String("# made here\ntitle: t\nbodies: [{name: hull}]"), rospy.Time(0, 1))
+            bag.write("/wavetank/markers", MarkerArray(markers), rospy.Time(0, 1))
+            for n in range(3):
+                odometry = stamped(Odometry(), 100 * n)
+                odometry.pose.pose.position.z = float(n)
+                odometry.pose.pose.orientation.y, odometry.pose.pose.orientation.w = math.sin(math.pi / 4), math.cos(math.pi / 4)
+                bag.write("/wavetank/bodies/hull/odom", odometry, rospy.Time(1 + n))
+            for n in range(2):
+                cloud.width, cloud.data = n + 1, points[: n + 1].tobytes()
+                bag.write("/wavetank/free_surface", stamped(cloud, 50 + 100 * n), rospy.Time(1 + n))
+        done = self.run_export(source, "--vtk", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        arrays, counts = read_vtp(os.path.join(out, "free_surface_00001.vtp"))
+        self.assertEqual((counts["Points"], counts["Verts"], counts["Polys"]), (2, 2, 0))
+        self.assertEqual(arrays["points"].tolist(), points[:, :3].tolist())
+        self.assertEqual(arrays["velocity"].tolist(), points[:, 3:6].tolist())
+        self.assertEqual(arrays["pressure"].tolist(), [7.0, 14.0])
+        self.assertEqual(arrays["connectivity"].tolist(), [0, 1])
+        self.assertEqual(arrays["offsets"].tolist(), [1, 2])
+        arrays, counts = read_vtp(os.path.join(out, "hull_00001.vtp"))
+        self.assertEqual((counts["Points"], counts["Polys"]), (3, 1))
+        # at 0.15 s 1.5 m up; turned by a quarter about y, which takes x to -z and z to x
+        numpy.testing.assert_allclose(arrays["points"], [[0, 0, 2.0], [0, 0, 1.0], [1, 0, 2.0]], atol=1e-6)
+        arrays, _ = read_vtp(os.path.join(out, "tank.vtp"))
+        self.assertEqual(arrays["points"].tolist(), [[0, 0, 0], [1, 0, 0], [0, 0, 1]])
+        entries = xml.dom.minidom.parse(os.path.join(out, "case.pvd")).getElementsByTagName("DataSet")
+        found = [(entry.getAttribute("timestep"), entry.getAttribute("file")) for entry in entries]
+        self.assertEqual(found[3:], [("0.15", "free_surface_00001.vtp"), ("0.15", "hull_00001.vtp"), ("0.15", "tank.vtp")])
+        py_compile.compile(os.path.join(out, "view.py"), os.path.join(out, "view.pyc"), doraise=True)
+
+    def test_what_is_wrong_is_one_sentence(self):
+        for arguments, sentence in (
+            ([self.bag, "--vtk", "x"], "holds no point clouds: write it with wavetank_run --clouds"),
+            (["/no/such.bag", "--csv", "x"], "export: there is no bag '/no/such.bag'"),
+            ([self.bag, "--csv", self.bag], "export: cannot write '%s': File exists" % self.bag),
+            ([self.bag, "--csv", "x", "--instrument", "thermometer"], "holds no thermometer under /wavetank, only probes, gauges"),
+        ):
+            done = self.run_export(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(sentence, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
