@@ -1,28 +1,16 @@
 #include "catenary.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
+
+#include "roots.h"
 
 namespace wavetank {
 namespace {
 
-constexpr int bits = 48;              // to which roots are found
 constexpr double least_ratio = 1e-9;  // of the horizontal pull to the line's weight: below it the line hangs straight down
 constexpr double taut_ratio = 1e-9;   // of a length that does not stretch, left over
 constexpr int most_doublings = 1000;  // beyond doubles' range
-
-/// The zero of an increasing function between two places where it is not of one sign.
-template <class Function>
-double zero_of(const Function& function, double low, double high) {
-  const double at_low = function(low), at_high = function(high);
-  if (!(at_low < 0)) return low;
-  if (!(at_high > 0)) return high;
-  std::uintmax_t iterations = 200;
-  const auto bracket =
-      boost::math::tools::toms748_solve(function, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(bits), iterations);
-  return 0.5 * (bracket.first + bracket.second);
-}
 
 /// The equations of the line for pulls H, horizontal, and V, vertical at its top.
 class Equations {

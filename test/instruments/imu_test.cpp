@@ -13,6 +13,7 @@ Case hull_case(Motion motion) {
   hull.rigid.collision = CollisionShape::none;
   if (motion == Motion::free) hull.rigid.mass = 10;
   scene.bodies = {hull};
+  scene.instruments.rate = 10;  // of what is not looked at
   scene.instruments.imu_rate = 200;
   return scene;
 }
