@@ -87,8 +87,10 @@ void TankNode::advertise_topics() {
   for (const FlowSectionCase& section : case_.instruments.sections) advertise(section_topic(section.name), SectionFlow());
   for (const BodyCase& body : case_.bodies)
     if (body.imu) advertise(imu_topic(body.name), sensor_msgs::Imu());
+  bool any_moorings = false;
   const auto advertise_moorings = [&](const std::string& body, const RigidCase& rigid) {
     for (std::size_t m = 0; m < rigid.moorings.size(); ++m) advertise(mooring_topic(body, name_of(rigid, m)), MooringTension());
+    any_moorings = any_moorings || !rigid.moorings.empty();
   };
   advertise_moorings(tank_name, case_.tank.rigid);
   for (const BodyCase& body : case_.bodies) advertise_moorings(body.name, body.rigid);
@@ -107,7 +109,7 @@ void TankNode::advertise_topics() {
     advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
   markers_ = private_.advertise<visualization_msgs::MarkerArray>(SampleMessages::markers_topic, 1, true);
   // Lines that move come beside what is latched, not in its place.
-  advertise(SampleMessages::markers_topic, visualization_msgs::MarkerArray());
+  if (any_moorings) advertise(SampleMessages::markers_topic, visualization_msgs::MarkerArray());
   case_publisher_ = private_.advertise<std_msgs::String>("case", 1, true);
   status_ = private_.advertise<SolverStatus>("status", 10);
   if (case_.publishing.publish_clock) {
