@@ -68,9 +68,10 @@ std::string name_of(const RigidCase& rigid, std::size_t mooring) {
 
 namespace {
 
-void claim(std::map<std::string, std::string>& taken, const std::string& topic, const std::string& what) {
+void claim(std::map<std::string, std::string>& taken, const std::string& topic, const std::string& what,
+           const std::string& does = "publish on") {
   const auto [holder, is_new] = taken.emplace(topic, what);
-  if (!is_new) throw Error(what + " and " + holder->second + " would both publish on '" + topic + "': give one of them another name");
+  if (!is_new) throw Error(what + " and " + holder->second + " would both " + does + " '" + topic + "': give one of them another name");
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ void check_names(const Case& checked) {
   for (const FlowSectionCase& section : checked.instruments.sections)
     claim(taken, section_topic(section.name), "section '" + section.name + "'");
   for (const JointCase& joint : checked.joints)
-    if (joint.command) claim(taken, joint_command_topic(joint.name), "joint '" + joint.name + "'");
+    if (joint.command) claim(taken, joint_command_topic(joint.name), "joint '" + joint.name + "'", "listen to");
   for (const OpeningCase& opening : checked.openings) claim(taken, flow_topic(opening.name), "opening '" + opening.name + "'");
 }
 
