@@ -119,7 +119,7 @@ TEST(Section, OfADiscReadsTheDischarge) {
 TEST(Section, LeavesOutWhatLiesInBodies) {
   Case scene = flowing(Vector3d(1, 0, 0.8), 0.5, 0.02);
   scene.instruments.velocity_probes.clear();
-  scene.instruments.sections = {across(Vector3d(0.5, 0, 0.25), 0, 0.5)};
+  scene.instruments.sections = {across(Vector3d(0.5, 0, 0.4), 0, 0.8)};
   for (const Motion motion : {Motion::fixed, Motion::commanded}) {
     scene.bodies = {{"block", Box{Vector3d(0.3, 0, 0), Vector3d(0.7, 0, 0.2)}, motion}};
     const FlowThroughSection flow = samples_of(scene).sections.at(0).flows.at(0);

@@ -306,7 +306,7 @@ void equip(Case& scene) {
   instruments.pose_rate = 1000;
   instruments.velocity_probes = {
       {"middle", Vector3d(0.3, 0, 0.05)}, {"bow", Vector3d(0.2, 0, 0.14), "afloat"}, {"air", Vector3d(0.3, 0, 0.35)}};
-  instruments.sections = {{"across", Vector3d(0.26, 0, 0.15), Vector3d::UnitX(), {{0, 0.3}}}};
+  instruments.sections = {{"across", Vector3d(0.26, 0, 0.15), Vector3d::UnitX(), std::array<double, 2>{0, 0.3}}};
   scene.bodies[1].imu = ImuCase{Vector3d(0.2, 0, 0.2)};
   MooringCase line;
   line.line = MooringLine::catenary;
