@@ -19,11 +19,13 @@ bool within(const Basin& basin, const Vector3d& place, int ignored, double margi
 
 std::string span(const Basin& basin) { return "the tank spans " + describe(basin.domain.min) + " to " + describe(basin.domain.max) + " m"; }
 
-void check_probe(const PressureProbeCase& probe, const Basin& basin, const OpenSpace& open, double spacing) {
+/// `kind`: of instrument, for messages.
+template <class Probe>
+void check_probe(const char* kind, const Probe& probe, const Basin& basin, const OpenSpace& open, double spacing) {
   Vector3d place = probe.position;
   if (basin.dimensions == 2) place.y() = 0;
   const double skin = 0.25 * spacing;
-  const std::string name = "pressure probe '" + probe.name + "' at " + describe(probe.position) + " m ";
+  const std::string name = std::string(kind) + " '" + probe.name + "' at " + describe(probe.position) + " m ";
   if (!within(basin, place, -1, skin)) throw Error(name + "lies outside the tank; " + span(basin));
   for (const Solid& solid : basin.solids) {
     if (!solid.contains(place)) continue;
@@ -76,7 +78,8 @@ std::vector<Vector3d> disc_normals(const InstrumentsCase& instruments, const Bas
 }
 
 void check_instruments(const InstrumentsCase& instruments, const Basin& basin, const OpenSpace& open, double spacing) {
-  for (const PressureProbeCase& probe : instruments.pressure_probes) check_probe(probe, basin, open, spacing);
+  for (const PressureProbeCase& probe : instruments.pressure_probes) check_probe("pressure probe", probe, basin, open, spacing);
+  for (const VelocityProbeCase& probe : instruments.velocity_probes) check_probe("velocity probe", probe, basin, open, spacing);
   for (const WaveGaugeCase& gauge : instruments.wave_gauges) {
     if (within(basin, gauge.position, basin.top.axis, 1e-6 * spacing)) continue;
     std::string place;

@@ -4,8 +4,8 @@
 
 namespace wavetank {
 
-/// Throws Error naming a pressure probe that lies inside a body (deeper than a quarter of the spacing) or where the fluid cannot come, and
-/// a wave gauge outside the tank. A probe on a wall is fine.
+/// Throws Error naming a pressure or velocity probe that lies inside a body (deeper than a quarter of the spacing) or where the fluid
+/// cannot come, and a wave gauge outside the tank. A probe on a wall is fine.
 void check_instruments(const InstrumentsCase& instruments, const Basin& basin, const OpenSpace& open, double spacing);
 
 /// Unit normals of the walls that the discs of the case's pressure probes lie on, zero for a probe without one. Throws Error naming a probe

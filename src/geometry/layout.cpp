@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assemblies.h"
+#include "flow_sections.h"
 #include "fluid_filling.h"
 #include "instrument_checks.h"
 #include "intruding_walls.h"
@@ -480,6 +481,7 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   find_intruding(checked, meshes, assemblies, layout);
   check_instruments(checked.instruments, basin, open, layout.spacing);
   layout.disc_normals = disc_normals(checked.instruments, basin, layout.spacing);
+  layout.sections = place_sections(checked.instruments.sections, basin, open, layout.spacing);
   return layout;
 }
 

@@ -12,7 +12,7 @@
 namespace wavetank {
 namespace {
 
-constexpr double flatness = 1e-3;  // of the spacing: corners nearer to a plane are in it
+constexpr double flat_enough = 1e-3;  // of the spacing: corners nearer to a plane are in it
 
 const MeshPart& part_of(const OpeningCase& given, const TriangleMesh& mesh) {
   std::string names;
@@ -72,7 +72,7 @@ void set_outline_3d(const OpeningCase& given, const MeshPart& part, const Vector
   opening.centre = origin + 0.5 * (low.x() + high.x()) * opening.across + 0.5 * (low.y() + high.y()) * opening.up;
   for (const Eigen::Vector2d& point : hull) opening.outline.push_back(origin + point.x() * opening.across + point.y() * opening.up);
   const double whole = vector_area(opening.outline).norm();
-  const bool fills = std::abs(whole - opening.width * opening.height) < flatness * spacing * (opening.width + opening.height);
+  const bool fills = std::abs(whole - opening.width * opening.height) < flat_enough * spacing * (opening.width + opening.height);
   opening.shape = fills ? Opening::Shape::rectangle : Opening::Shape::polygon;
   if (std::abs(area - whole) > 1e-3 * whole)
     throw Error("opening '" + given.name + "': part '" + given.part + "' fills " + describe(area) + " m² of the " + describe(whole) +
@@ -116,7 +116,7 @@ void place_by_part(const OpeningCase& given, const TriangleMesh& mesh, bool is_b
   origin /= static_cast<double>(part.triangles.size());
   for (const auto& triangle : part.triangles)
     for (const Vector3d& corner : triangle)
-      if (std::abs(normal.dot(corner - origin)) > flatness * spacing)
+      if (std::abs(normal.dot(corner - origin)) > flat_enough * spacing)
         throw Error(what + "is not flat: its corner at " + describe(corner) + " m is " + describe(std::abs(normal.dot(corner - origin))) +
                     " m out of its plane");
   if (dimensions == 2) {

@@ -3,13 +3,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "filled.h"
+#include "wavetank/common/error.h"
 
 namespace wavetank {
 
 namespace {
 
-constexpr std::size_t state_size = 19, joint_size = 3;
+constexpr std::size_t state_size = 19, joint_size = 3, imu_size = 13;
+constexpr double least_wet = 0.5;  // of the kernel that walls leave: less is filled only over the free surface
+const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+
+double rate_of_poses(const Case& scene) { return scene.instruments.pose_rate.value_or(std::min(scene.instruments.rate, 100.0)); }
 
 std::vector<double> values_of(const RigidWorld& world) {
   std::vector<double> values;
@@ -77,30 +85,46 @@ Recorder::Recorder(const Case& scene, const Layout& layout, const Solver& solver
   add_energies(scene);
   add_poses(scene);
   add_flows(scene);
+  add_velocities(scene, solver);
+  add_sections(scene, layout, solver);
+  add_imus(scene);
+  add_moorings(scene);
+}
+
+std::size_t Recorder::rider_of(const Case& scene, const std::string& body) const {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].name == body && world_.moves(1 + b)) return 1 + b;
+  return 0;
+}
+
+std::vector<PointValue> Recorder::evaluate(const Points& points, Solver& solver) const {
+  const auto rides = [](std::size_t owner) { return owner != 0; };
+  if (std::any_of(points.owners.begin(), points.owners.end(), rides)) {
+    std::vector<Vector3d> places = points.places;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (const std::size_t owner = points.owners[k]; owner != 0)
+        places[k] = world_.state_in_tank(owner).moved(places[k], world_.reference(owner));
+    points.set->set(places);
+  }
+  return solver.evaluate(*points.set);
 }
 
 void Recorder::add_pressures(const Case& scene, const Layout& layout, const Solver& solver) {
-  bool any_rides = false;
   for (std::size_t k = 0; k < scene.instruments.pressure_probes.size(); ++k) {
     const PressureProbeCase& probe = scene.instruments.pressure_probes[k];
     const std::vector<Vector3d> points =
         probe.diameter > 0 ? points_of_disc(probe, layout.disc_normals.at(k), scene.dimensions) : std::vector<Vector3d>{probe.position};
-    std::size_t owner = 0;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (scene.bodies[b].name == probe.body && world_.moves(1 + b)) owner = 1 + b;
     probe_points_.push_back(points.size());
-    probe_places_.insert(probe_places_.end(), points.begin(), points.end());
-    probe_owners_.insert(probe_owners_.end(), points.size(), owner);
-    any_rides = any_rides || owner != 0;
+    probes_.places.insert(probes_.places.end(), points.begin(), points.end());
+    probes_.owners.insert(probes_.owners.end(), points.size(), rider_of(scene, probe.body));
   }
-  probes_ = solver.make_points(probe_places_);
-  const bool any = !probe_places_.empty();
+  probes_.set = solver.make_points(probes_.places);
+  const bool any = !probes_.places.empty();
   instruments_.push_back({SampleClock(scene.instruments.rate),
-                          [this, any, any_rides](Solver& fluid) {
+                          [this, any](Solver& fluid) {
                             Values pressures;
                             if (!any) return pressures;
-                            if (any_rides) probes_->set(places_of_probes());
-                            const std::vector<PointValue> values = fluid.evaluate(*probes_);
+                            const std::vector<PointValue> values = evaluate(probes_, fluid);
                             auto next = values.begin();
                             for (const std::size_t points : probe_points_) {
                               double sum = 0;
@@ -112,13 +136,6 @@ void Recorder::add_pressures(const Case& scene, const Layout& layout, const Solv
                           [this](double time, const Values& values) {
                             samples_.pressures.push_back({time, values});
                           }});
-}
-
-std::vector<Vector3d> Recorder::places_of_probes() const {
-  std::vector<Vector3d> places = probe_places_;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (probe_owners_[k] != 0) places[k] = world_.state_in_tank(probe_owners_[k]).moved(places[k], world_.reference(probe_owners_[k]));
-  return places;
 }
 
 void Recorder::add_levels(const Case& scene, const Layout& layout, const Solver& solver) {
@@ -182,8 +199,7 @@ void Recorder::add_energies(const Case& scene) {
 
 void Recorder::add_poses(const Case& scene) {
   const bool any = world_.anything_moves();
-  instruments_.push_back({SampleClock(scene.instruments.pose_rate.value_or(std::min(scene.instruments.rate, 100.0))),
-                          [this, any](Solver&) { return any ? values_of(world_) : Values(); },
+  instruments_.push_back({SampleClock(rate_of_poses(scene)), [this, any](Solver&) { return any ? values_of(world_) : Values(); },
                           [this, any](double time, const Values& values) {
                             if (any) samples_.poses.push_back(pose_sample(time, values, world_.count()));
                           }});
@@ -207,7 +223,129 @@ void Recorder::add_flows(const Case& scene) {
                           }});
 }
 
+void Recorder::add_velocities(const Case& scene, const Solver& solver) {
+  for (const VelocityProbeCase& probe : scene.instruments.velocity_probes) {
+    velocity_probes_.places.push_back(probe.position);
+    velocity_probes_.owners.push_back(rider_of(scene, probe.body));
+  }
+  const bool any = !velocity_probes_.places.empty();
+  if (any) velocity_probes_.set = solver.make_points(velocity_probes_.places, PointValues::velocity);
+  instruments_.push_back({SampleClock(scene.instruments.rate),
+                          [this, any](Solver& fluid) {
+                            Values values;
+                            if (!any) return values;
+                            for (const PointValue& point : evaluate(velocity_probes_, fluid)) {
+                              const Vector3d velocity = filled(point) < least_wet ? none : point.velocity;
+                              values.insert(values.end(), velocity.data(), velocity.data() + 3);
+                            }
+                            return values;
+                          },
+                          [this, any](double time, const Values& values) {
+                            if (!any) return;
+                            VelocitySample sample;
+                            sample.time = time;
+                            for (std::size_t k = 0; k + 3 <= values.size(); k += 3) sample.velocities.emplace_back(values.data() + k);
+                            samples_.velocities.push_back(std::move(sample));
+                          }});
+}
+
+void Recorder::add_sections(const Case& scene, const Layout& layout, const Solver& solver) {
+  const bool any = !scene.instruments.sections.empty();
+  sections_ = std::make_shared<FlowSections>(scene, layout, solver, world_);
+  instruments_.push_back({SampleClock(scene.instruments.flow_rate.value_or(scene.instruments.rate)),
+                          [this](Solver& fluid) {
+                            Values values;
+                            for (const FlowThroughSection& flow : sections_->read(fluid))
+                              values.insert(values.end(), {flow.discharge, flow.area});
+                            return values;
+                          },
+                          [this, any](double time, const Values& values) {
+                            if (!any) return;
+                            SectionSample sample;
+                            sample.time = time;
+                            for (std::size_t k = 0; k + 2 <= values.size(); k += 2) sample.flows.push_back({values[k], values[k + 1]});
+                            samples_.sections.push_back(std::move(sample));
+                          }});
+}
+
+void Recorder::add_imus(const Case& scene) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (const auto& imu = scene.bodies[b].imu) imus_.push_back({1 + b, imu->position.value_or(world_.reference(1 + b))});
+  const double rate = scene.instruments.imu_rate.value_or(rate_of_poses(scene));
+  imu_period_ = 1 / rate;
+  instruments_.push_back({SampleClock(rate), [this](Solver&) { return imu_values(); },
+                          [this](double time, const Values& values) {
+                            if (!imus_.empty()) samples_.imus.push_back(imu_sample(time, values));
+                          }});
+}
+
+std::vector<double> Recorder::imu_values() const {
+  Values values;
+  const auto add = [&values](const auto& vector) { values.insert(values.end(), vector.data(), vector.data() + vector.size()); };
+  for (const Imu& imu : imus_) {
+    const RigidState state = world_.state(imu.owner);
+    const Vector3d place = state.moved(imu.place, world_.reference(imu.owner)), arm = place - state.position;
+    add(state.orientation.coeffs());
+    add(state.angular_velocity);
+    add(state.velocity_at(place));
+    add(Vector3d(state.acceleration + state.angular_acceleration.cross(arm) +
+                 state.angular_velocity.cross(state.angular_velocity.cross(arm))));
+  }
+  return values;
+}
+
+ImuSample Recorder::imu_sample(double time, const Values& values) {
+  ImuSample sample;
+  sample.time = time;
+  const bool first = imu_velocities_.empty();
+  imu_velocities_.resize(3 * imus_.size());
+  for (std::size_t k = 0; k < imus_.size(); ++k) {
+    const double* v = values.data() + imu_size * k;
+    ImuReading reading;
+    reading.orientation = Quaterniond(v).normalized();
+    const Quaterniond into_body = reading.orientation.conjugate();
+    reading.angular_velocity = into_body * Vector3d(v + 4);
+    Eigen::Map<Vector3d> before(imu_velocities_.data() + 3 * k);
+    const Vector3d velocity(v + 7);
+    const Vector3d acceleration = first ? Vector3d(v + 10) : Vector3d((velocity - before) / imu_period_);
+    before = velocity;
+    reading.specific_force = into_body * (acceleration - gravity_);
+    sample.readings.push_back(reading);
+  }
+  return sample;
+}
+
+void Recorder::add_moorings(const Case& scene) {
+  bool any = !scene.tank.rigid.moorings.empty();
+  for (const BodyCase& body : scene.bodies) any = any || !body.rigid.moorings.empty();
+  instruments_.push_back({SampleClock(rate_of_poses(scene)),
+                          [this, any](Solver&) {
+                            Values values;
+                            if (!any) return values;
+                            for (const MooringState& mooring : world_.moorings()) {
+                              values.insert(values.end(), {mooring.tension, mooring.anchor_tension, mooring.lying});
+                              values.push_back(static_cast<double>(mooring.line.size()));
+                              for (const Vector3d& place : mooring.line) values.insert(values.end(), place.data(), place.data() + 3);
+                            }
+                            return values;
+                          },
+                          [this, any](double time, const Values& values) {
+                            if (!any) return;
+                            MooringSample sample;
+                            sample.time = time;
+                            for (const double* v = values.data(); v != values.data() + values.size();) {
+                              MooringState mooring{v[0], v[1], v[2], {}};
+                              const auto places = static_cast<std::size_t>(std::lround(v[3]));
+                              v += 4;
+                              for (std::size_t k = 0; k < places; ++k, v += 3) mooring.line.emplace_back(v);
+                              sample.moorings.push_back(std::move(mooring));
+                            }
+                            samples_.moorings.push_back(std::move(sample));
+                          }});
+}
+
 void Recorder::start(Solver& solver) {
+  imu_velocities_.clear();
   for (Instrument& instrument : instruments_) {
     instrument.clock.set_index(0);
     instrument.after_time = -1;
@@ -269,6 +407,13 @@ void Recorder::set_clock_indices(const std::array<std::uint64_t, instrument_coun
     instruments_[k].after_time = -1;
   }
   samples_ = {};
+}
+
+void Recorder::set_memory(const std::vector<double>& memory) {
+  if (!memory.empty() && memory.size() != 3 * imus_.size())
+    throw Error("the snapshot's instruments have " + std::to_string(memory.size()) + " numbers, but this case's have " +
+                std::to_string(3 * imus_.size()) + ".");
+  imu_velocities_ = memory;
 }
 
 }  // namespace wavetank

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "filled.h"
 
 namespace wavetank {
 namespace {
@@ -51,24 +52,13 @@ std::vector<Crossing> crossings(const Layout& layout, const Vector3d& place, con
 
 constexpr double standing = 0.5;  ///< of the kernel just over a floor: so full, water stands on it; less is a film or spray
 
-bool within(const Box& box, const Vector3d& point) {
-  return (point.array() > box.min.array()).all() && (point.array() < box.max.array()).all();
-}
-
 }  // namespace
 
 WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& solver, const RigidWorld& world)
     : world_(world), interval_(0.25 * layout.spacing), top_(top_of(scene)) {
-  std::vector<Solid> fixed;
-  for (std::size_t b = 0; b < scene.bodies.size() && !scene.instruments.wave_gauges.empty(); ++b) {
-    const Box* box = std::get_if<Box>(&scene.bodies[b].shape);
-    Solid solid{1 + b, layout.meshes[1 + b], box != nullptr, box != nullptr ? *box : layout.meshes[1 + b].bounding_box()};
-    if (scene.dimensions == 2) {
-      solid.box.min.y() = -std::numeric_limits<double>::infinity();
-      solid.box.max.y() = std::numeric_limits<double>::infinity();
-    }
-    (world.moves(solid.owner) ? moving_ : fixed).push_back(std::move(solid));
-  }
+  std::vector<SolidBody> fixed;
+  if (!scene.instruments.wave_gauges.empty())
+    for (SolidBody& body : solid_bodies(scene, layout)) (world.moves(body.owner) ? moving_ : fixed).push_back(std::move(body));
   for (const WaveGaugeCase& gauge : scene.instruments.wave_gauges) {
     Line line;
     line.begin = places_.size();
@@ -88,7 +78,7 @@ WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& so
       const auto above = std::find_if(walls.begin(), walls.end(), [&](const Crossing& wall) { return wall.height > height; });
       const bool in_wall = above != walls.begin() && !std::prev(above)->is_floor && above != walls.end() && above->is_floor;
       open_.push_back(!in_wall &&
-                      std::none_of(fixed.begin(), fixed.end(), [&](const Solid& solid) { return contains(solid, places_.back()); }));
+                      std::none_of(fixed.begin(), fixed.end(), [&](const SolidBody& body) { return body.contains(places_.back()); }));
     }
     line.end = places_.size();
     lines_.push_back(std::move(line));
@@ -96,31 +86,11 @@ WaveGauges::WaveGauges(const Case& scene, const Layout& layout, const Solver& so
   points_ = solver.make_points(places_);
 }
 
-bool WaveGauges::contains(const Solid& solid, const Vector3d& point) const {
-  return within(solid.box, point) && (solid.is_box || inside(solid.mesh, point));
-}
-
-std::vector<char> WaveGauges::open_now() const {
-  std::vector<char> open = open_;
-  for (const Solid& solid : moving_) {
-    const RigidState state = world_.state_in_tank(solid.owner);
-    const Quaterniond back = state.orientation.conjugate();
-    for (std::size_t k = 0; k < places_.size(); ++k)
-      if (open[k] && contains(solid, back * (places_[k] - state.position) + world_.reference(solid.owner))) open[k] = 0;
-  }
-  return open;
-}
-
 std::vector<double> WaveGauges::read(Solver& solver) const {
   std::vector<double> levels;
   if (lines_.empty()) return levels;
   const std::vector<PointValue> values = solver.evaluate(*points_);
-  const std::vector<char> open = open_now();
-  // how much of the kernel the fluid fills, the walls' share apart: 1 in the fluid, 1/2 on its surface, 0 in the air
-  const auto filling = [&](std::size_t k) {
-    if (values[k].shepard < 0.1) return 0.0;
-    return std::min(values[k].filling / std::min(values[k].shepard, 1.0), 1.0);
-  };
+  const std::vector<char> open = without_bodies(open_, places_, moving_, world_);
   for (const Line& line : lines_) {
     // from the top down: water that stands on a body or a shelf is what the gauge sees, whatever is below
     double column = 0, above = 0, water_above = 0;
@@ -134,7 +104,7 @@ std::vector<double> WaveGauges::read(Solver& solver) const {
         if (water_above > standing) stood_on = *shelf;
       }
       if (stood_on) break;
-      if (open[k]) water_above = filling(k);
+      if (open[k]) water_above = filled(values[k]);
       const bool stands = !open[k] && water_above > standing;
       const double here = open[k] ? water_above : stands ? 1.0 : 0.0;
       if (k + 1 < line.end) column += 0.5 * interval_ * (here + above);

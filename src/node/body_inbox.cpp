@@ -44,6 +44,11 @@ double read_discharge(const std_msgs::Float64& message) {
   return message.data;
 }
 
+double read_joint_command(const std_msgs::Float64& message) {
+  if (!std::isfinite(message.data)) throw Error("a command that is NaN or infinite is ignored: the one before stays");
+  return message.data;
+}
+
 OutsideWrench outside_wrench(const AskedWrench& asked, const Quaterniond& tank, double time, double timeout) {
   OutsideWrench wrench;
   wrench.turns_with_body = asked.axes == AskedWrench::Axes::body;
@@ -67,6 +72,11 @@ void BodyInbox::put(std::size_t owner, const AskedVelocity& velocity) {
 void BodyInbox::put_discharge(std::size_t opening, double discharge) {
   const std::lock_guard<std::mutex> lock(mutex_);
   contents_.discharges[opening] = discharge;
+}
+
+void BodyInbox::put_joint(std::size_t joint, double command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  contents_.joints[joint] = command;
 }
 
 BodyInbox::Contents BodyInbox::take() {

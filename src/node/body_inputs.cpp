@@ -49,6 +49,10 @@ BodyInputs::BodyInputs(ros::NodeHandle& private_handle, const Case& checked, dou
     if (checked.openings[o].command)
       listen<std_msgs::Float64>(private_handle, discharge_topic(checked.openings[o].name),
                                 [this, o](const std_msgs::Float64& message) { inbox_.put_discharge(o, read_discharge(message)); });
+  for (std::size_t j = 0; j < checked.joints.size(); ++j)
+    if (checked.joints[j].command)
+      listen<std_msgs::Float64>(private_handle, joint_command_topic(checked.joints[j].name),
+                                [this, j](const std_msgs::Float64& message) { inbox_.put_joint(j, read_joint_command(message)); });
 }
 
 template <class Message, class Take>
@@ -76,6 +80,7 @@ void BodyInputs::apply(Simulation& simulation) {
       log(LogLevel::warning, error.what());
     }
   }
+  for (const auto& [joint, command] : contents.joints) simulation.command_joint(joint, command);
   if (contents.wrenches.empty() && contents.velocities.empty()) return;
   const double time = simulation.state().time;
   const Quaterniond tank = simulation.bodies().state(0).orientation;

@@ -17,9 +17,9 @@ std::vector<BodyFrame> body_frames(const Case& checked, const std::vector<Vector
   return frames;
 }
 
-std::size_t owner_of(const Case& checked, const PressureProbeCase& probe) {
+std::size_t owner_of(const Case& checked, const std::string& body) {
   for (std::size_t i = 0; i < checked.bodies.size(); ++i)
-    if (checked.bodies[i].name == probe.body) return 1 + i;
+    if (checked.bodies[i].name == body) return 1 + i;
   return 0;
 }
 

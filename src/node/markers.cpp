@@ -140,16 +140,30 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   }
 
   const double text_height = 0.014 * size;
-  int id = 0;
-  for (const PressureProbeCase& probe : checked.instruments.pressure_probes) {
-    Marker sphere = marker(checked, "probes", id, Marker::SPHERE, colour(0.9F, 0.1F, 0.1F, 1.0F));
-    const BodyFrame& frame = frames[owner_of(checked, probe)];
+  const auto add_probe = [&](const auto& probe, const std::string& kind, int id, const std_msgs::ColorRGBA& shade) {
+    Marker sphere = marker(checked, kind + "s", id, Marker::SPHERE, shade);
+    const BodyFrame& frame = frames[owner_of(checked, probe.body)];
     sphere.pose.position = point_message(probe.position);
     sphere.scale.x = sphere.scale.y = sphere.scale.z = 0.006 * size;
     drawing.markers.push_back(moving_with(frame, sphere));
     drawing.markers.push_back(
-        moving_with(frame, label(checked, "probe names", id, probe.name, probe.position + Vector3d(0, 0, text_height), text_height)));
-    ++id;
+        moving_with(frame, label(checked, kind + " names", id, probe.name, probe.position + Vector3d(0, 0, text_height), text_height)));
+  };
+  int id = 0;
+  for (const PressureProbeCase& probe : checked.instruments.pressure_probes)
+    add_probe(probe, "probe", id++, colour(0.9F, 0.1F, 0.1F, 1.0F));
+  id = 0;
+  for (const VelocityProbeCase& probe : checked.instruments.velocity_probes)
+    add_probe(probe, "velocity probe", id++, colour(0.2F, 0.3F, 0.95F, 1.0F));
+  for (std::size_t k = 0; k < layout.sections.size(); ++k) {
+    const std::vector<Vector3d>& outline = layout.sections[k].outline;
+    Marker line = marker(checked, "sections", static_cast<int>(k), Marker::LINE_STRIP, colour(0.2F, 0.3F, 0.95F, 0.9F));
+    line.scale.x = 0.001 * size;
+    for (const Vector3d& corner : outline) line.points.push_back(point_message(corner));
+    line.points.push_back(line.points.front());
+    drawing.markers.push_back(line);
+    drawing.markers.push_back(label(checked, "section names", static_cast<int>(k), checked.instruments.sections[k].name,
+                                    outline.back() + Vector3d(0, 0, text_height), text_height));
   }
   id = 0;
   for (const WaveGaugeCase& gauge : checked.instruments.wave_gauges) {

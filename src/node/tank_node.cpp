@@ -81,6 +81,19 @@ void TankNode::advertise_topics() {
   advertise(SampleMessages::probes_topic, ProbeArray());
   advertise(SampleMessages::gauges_topic, WaveGaugeArray());
   for (const PressureProbeCase& probe : case_.instruments.pressure_probes) advertise(probe_topic(probe.name), sensor_msgs::FluidPressure());
+  for (const WaveGaugeCase& gauge : case_.instruments.wave_gauges) advertise(gauge_topic(gauge.name), geometry_msgs::PointStamped());
+  for (const VelocityProbeCase& probe : case_.instruments.velocity_probes)
+    advertise(velocity_topic(probe.name), geometry_msgs::Vector3Stamped());
+  for (const FlowSectionCase& section : case_.instruments.sections) advertise(section_topic(section.name), SectionFlow());
+  for (const BodyCase& body : case_.bodies)
+    if (body.imu) advertise(imu_topic(body.name), sensor_msgs::Imu());
+  bool any_moorings = false;
+  const auto advertise_moorings = [&](const std::string& body, const RigidCase& rigid) {
+    for (std::size_t m = 0; m < rigid.moorings.size(); ++m) advertise(mooring_topic(body, name_of(rigid, m)), MooringTension());
+    any_moorings = any_moorings || !rigid.moorings.empty();
+  };
+  advertise_moorings(tank_name, case_.tank.rigid);
+  for (const BodyCase& body : case_.bodies) advertise_moorings(body.name, body.rigid);
   std::vector<std::string> bodies{tank_name};
   for (const BodyCase& body : case_.bodies) bodies.push_back(body.name);
   for (const std::string& body : bodies)
@@ -94,7 +107,9 @@ void TankNode::advertise_topics() {
   if (!moving.empty()) moving_transforms_ = std::make_unique<TransformPublisher>(handle_);
   if (std::any_of(case_.joints.begin(), case_.joints.end(), has_position))
     advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
-  markers_ = private_.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
+  markers_ = private_.advertise<visualization_msgs::MarkerArray>(SampleMessages::markers_topic, 1, true);
+  // Lines that move come beside what is latched, not in its place.
+  if (any_moorings) advertise(SampleMessages::markers_topic, visualization_msgs::MarkerArray());
   case_publisher_ = private_.advertise<std_msgs::String>("case", 1, true);
   status_ = private_.advertise<SolverStatus>("status", 10);
   if (case_.publishing.publish_clock) {
@@ -172,7 +187,8 @@ void TankNode::publish_present_poses(const Simulation& simulation) {
 void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   const double time = simulation.state().time;
   // Before the samples, so that nobody gets one from the future.
-  const bool has_samples = !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty();
+  const bool has_samples =
+      !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty() || !samples.imus.empty();
   if (has_samples || Clock::now() >= clock_due_) publish_clock(time);
   publish_samples(samples);
   if (!recorder_) return;

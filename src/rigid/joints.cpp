@@ -207,8 +207,33 @@ Eigen::Matrix3d Joint::settled_axes(const std::vector<RigidState>& states, const
   return axes;
 }
 
-void Joint::add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, double correction,
+double Joint::wanted(double time) const {
+  const JointCommandCase& limits = *joint_.command;
+  if (!command.given || (limits.timeout > 0 && time - command.at >= limits.timeout)) return 0;
+  const double greatest = (limits.quantity == JointQuantity::effort ? limits.greatest_effort : limits.greatest_velocity).value_or(infinite);
+  return std::clamp(command.value, -greatest, greatest);
+}
+
+/// A velocity that is commanded, by an effort within its limit; not on through the joint's own limits.
+void Joint::add_drive(const StepStates& states, double time, double time_step, std::vector<JointRow>& rows) const {
+  if (!joint_.command || joint_.command->quantity != JointQuantity::velocity) return;
+  const Coordinate start = free_one(states.start), middle = free_one(states.middle);
+  JointRow row{child_.frame, parent_.frame, middle.linear, middle.angular_child, middle.angular_parent};
+  row.target = wanted(time);
+  if (joint_.limits) {
+    const double least = ((*joint_.limits)[0] - start.value) / time_step, greatest = ((*joint_.limits)[1] - start.value) / time_step;
+    row.target = std::clamp(row.target, std::min(least, 0.0), std::max(greatest, 0.0));
+  }
+  if (joint_.command->greatest_effort) {
+    row.greatest_impulse = *joint_.command->greatest_effort * time_step;
+    row.least_impulse = -row.greatest_impulse;
+  }
+  rows.push_back(row);
+}
+
+void Joint::add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time, double time_step, double correction,
                      std::vector<JointRow>& rows) const {
+  add_drive(states, time, time_step, rows);
   const Eigen::Matrix3d axes = settled_axes(states.middle, inertias);
   const std::vector<Coordinate> start = bounded(states.start, axes), middle = bounded(states.middle, axes), end = bounded(states.end, axes);
   for (std::size_t k = 0; k < bounds_.size(); ++k) {
@@ -254,8 +279,21 @@ double Joint::free_mobility(const Coordinate& coordinate, const std::vector<Rigi
   return count == 0 ? whole : std::max(whole - cross.dot(held.ldlt().solve(cross)), 0.0);
 }
 
-void Joint::add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step,
+void Joint::add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time, double time_step,
                       std::vector<RigidLoad>& loads) const {
+  add_spring(states, inertias, time_step, loads);
+  if (!joint_.command || joint_.command->quantity != JointQuantity::effort) return;
+  const double effort = wanted(time);
+  if (effort == 0) return;
+  const Coordinate coordinate = free_one(states.middle);
+  loads[child_.frame].force += effort * coordinate.linear;
+  loads[child_.frame].torque += effort * coordinate.angular_child;
+  loads[parent_.frame].force -= effort * coordinate.linear;
+  loads[parent_.frame].torque -= effort * coordinate.angular_parent;
+}
+
+void Joint::add_spring(const StepStates& states, const std::vector<Inertia>& inertias, double time_step,
+                       std::vector<RigidLoad>& loads) const {
   if (joint_.stiffness == 0 && joint_.damping == 0) return;
   const bool is_spring = joint_.type == JointType::spring;
   const Coordinate coordinate = is_spring ? stretched(states.middle) : free_one(states.middle);

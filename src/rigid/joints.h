@@ -23,7 +23,14 @@ struct StepStates {
   std::vector<RigidState> start, middle, end;  ///< by frame
 };
 
-/// A joint as rows for the solver and, for its spring and damper, as loads.
+/// What was last commanded of a joint.
+struct JointCommand {
+  double value = 0;  ///< N or N·m, m/s or rad/s
+  double at = 0;     ///< s
+  bool given = false;
+};
+
+/// A joint as rows for the solver and, for its spring and damper, as loads; a velocity that is commanded is a row, an effort a load.
 /// Its rows hold at the end of the step and act along where they are at its middle, which keeps a mechanism's energy to second order.
 class Joint {
  public:
@@ -34,16 +41,22 @@ class Joint {
   const JointEnd& parent() const { return parent_; }
   /// Whether its ends stay at one place of each other, or on one line, so that the bodies have to pass through each other about it.
   bool holds_together() const;
-  void add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, double correction,
+  /// `time`: of the step's beginning, as commands end by it.
+  void add_rows(const StepStates& states, const std::vector<Inertia>& inertias, double time, double time_step, double correction,
                 std::vector<JointRow>& rows) const;
-  /// Adds the forces of its spring and damper. Implicit in the joint's own motion, so that no stiffness or damping is unstable by itself.
-  void add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, std::vector<RigidLoad>& loads) const;
+  /// Adds the forces of its spring and damper, implicit in the joint's own motion, so that no stiffness or damping is unstable by itself,
+  /// and an effort that is commanded.
+  void add_loads(const StepStates& states, const std::vector<Inertia>& inertias, double time, double time_step,
+                 std::vector<RigidLoad>& loads) const;
+  bool is_commanded() const { return joint_.command.has_value(); }
+  const std::string& name() const { return joint_.name; }
 
   JointState state(const std::vector<RigidState>& states) const;
   /// Counts turns; to be called after every step.
   void follow(const std::vector<RigidState>& states);
 
-  double angle = 0;  ///< rad, of a hinge, or of six_dof in 2-D, at the last step: all that a joint remembers
+  double angle = 0;      ///< rad, of a hinge, or of six_dof in 2-D, at the last step: all that a joint remembers ...
+  JointCommand command;  ///< ... but for this, of one that is commanded
 
  private:
   /// A coordinate of the child relative to the parent and how it answers to velocities.
@@ -64,6 +77,10 @@ class Joint {
   std::array<Coordinate, 3> turns(const std::vector<RigidState>& states) const;              ///< small, about the axes
   Coordinate stretched(const std::vector<RigidState>& states) const;                         ///< a spring's length
   Coordinate free_one(const std::vector<RigidState>& states) const;                          ///< of hinge and slider, and pitch in 2-D
+  /// What is commanded at a time, within the limits: 0 without a command.
+  double wanted(double time) const;
+  void add_spring(const StepStates& states, const std::vector<Inertia>& inertias, double time_step, std::vector<RigidLoad>& loads) const;
+  void add_drive(const StepStates& states, double time, double time_step, std::vector<JointRow>& rows) const;
   std::vector<Coordinate> bounded(const std::vector<RigidState>& states, const Eigen::Matrix3d& axes) const;
   Eigen::Matrix3d settled_axes(const std::vector<RigidState>& states, const std::vector<Inertia>& inertias) const;
   double answer(const Coordinate& a, const Coordinate& b, const std::vector<RigidState>& states,

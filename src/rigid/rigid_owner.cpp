@@ -24,7 +24,7 @@ void set_going(RigidOwner& owner, const Case& scene, const RigidCase& rigid, con
     owner.commanded.emplace(rigid.command, owner.reference, scene.dimensions);
     owner.state = owner.commanded->state();
   } else if (owner.is_free()) {
-    owner.forces.emplace(rigid, owner.reference, tank_reference, !is_tank, owner.what);
+    owner.forces.emplace(rigid, scene.gravity, owner.reference, tank_reference, !is_tank, owner.what);
     owner.state.velocity = rigid.velocity;
     owner.state.angular_velocity = rigid.angular_velocity;
     if (scene.dimensions == 2) {

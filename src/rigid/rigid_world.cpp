@@ -66,7 +66,7 @@ void RigidWorld::advance(double time, double time_step, const std::vector<RigidL
     std::vector<FreeMotion> motions(owners.size());
     for (std::size_t o = 0; o < owners.size(); ++o)
       if (owners[o].is_free()) motions[o] = free_motion(owners[o].state, owners[o].inertia, loads[o], time_step);
-    const std::vector<BodyChange> changes = parts.changes(time_step, states, given, motions);
+    const std::vector<BodyChange> changes = parts.changes(time, time_step, states, given, motions);
     for (std::size_t o = 0; o < owners.size(); ++o) {
       if (!owners[o].is_free()) continue;
       owners[o].state = after_step(owners[o].state, motions[o], changes[o], time_step);
@@ -94,6 +94,24 @@ void RigidWorld::command(std::size_t owner, double time, const Vector3d& velocit
   RigidOwner& body = parts_->checked(owner, Motion::commanded, "commanded, so that it takes no velocities");
   if (!velocity.allFinite() || !angular_velocity.allFinite()) throw Error("the velocity commanded of " + body.what + " is not finite");
   body.commanded->command(time, velocity, angular_velocity);
+}
+
+void RigidWorld::command_joint(std::size_t joint, double time, double value) {
+  if (joint >= joint_count()) throw Error("there is no joint " + std::to_string(joint) + " (0 is the first)");
+  Joint& commanded = parts_->joints[joint];
+  if (!commanded.is_commanded())
+    throw Error("joint '" + commanded.name() + "' is not commanded, so that it takes no efforts or velocities");
+  if (!std::isfinite(value)) throw Error("what is commanded of joint '" + commanded.name() + "' is not finite");
+  commanded.command = {value, time, true};
+}
+
+std::vector<MooringState> RigidWorld::moorings() const {
+  std::vector<MooringState> states;
+  for (const RigidOwner& owner : parts_->owners) {
+    if (!owner.is_free()) continue;
+    for (MooringState& state : owner.forces->moorings(owner.state, parts_->owners[0].state)) states.push_back(std::move(state));
+  }
+  return states;
 }
 
 std::size_t RigidWorld::joint_count() const { return parts_->joints.size(); }
@@ -136,7 +154,10 @@ std::vector<char> RigidWorld::save() const {
       values.push_back(wrench.until);
     }
   }
-  for (const Joint& joint : parts_->joints) values.push_back(joint.angle);
+  for (const Joint& joint : parts_->joints) {
+    values.push_back(joint.angle);
+    if (joint.is_commanded()) values.insert(values.end(), {joint.command.value, joint.command.at, joint.command.given ? 1.0 : 0.0});
+  }
   std::vector<char> bytes(values.size() * sizeof(double));
   std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
@@ -164,7 +185,13 @@ void RigidWorld::restore(const std::vector<char>& bytes) {
       wrench.until = *next++;
     }
   }
-  for (Joint& joint : parts_->joints) joint.angle = *next++;
+  for (Joint& joint : parts_->joints) {
+    joint.angle = *next++;
+    if (!joint.is_commanded()) continue;
+    joint.command.value = *next++;
+    joint.command.at = *next++;
+    joint.command.given = *next++ != 0;
+  }
 }
 
 }  // namespace wavetank

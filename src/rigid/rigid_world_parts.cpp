@@ -181,7 +181,7 @@ std::vector<RigidLoad> RigidWorld::Parts::loads(double time, double time_step, c
     add(o, owners[o].forces->at(time + 0.5 * time_step, time_step, states.middle[o], inertias[o], states.middle[0], inertias[0], on_tank));
     add(0, on_tank);
   }
-  for (const Joint& joint : joints) joint.add_loads(states, inertias, time_step, sums);
+  for (const Joint& joint : joints) joint.add_loads(states, inertias, time, time_step, sums);
   if (dimensions == 2) {
     for (RigidLoad& load : sums) {
       load.force.y() = 0;
@@ -192,8 +192,8 @@ std::vector<RigidLoad> RigidWorld::Parts::loads(double time, double time_step, c
 }
 
 /// What contacts and joints change; `given` has the mean velocities of what is not free.
-std::vector<BodyChange> RigidWorld::Parts::changes(double time_step, const StepStates& states, const std::vector<RigidState>& given,
-                                                   const std::vector<FreeMotion>& motions) const {
+std::vector<BodyChange> RigidWorld::Parts::changes(double time, double time_step, const StepStates& states,
+                                                   const std::vector<RigidState>& given, const std::vector<FreeMotion>& motions) const {
   std::vector<SolverBody> bodies(owners.size() + 1);
   for (std::size_t o = 0; o < owners.size(); ++o) {
     SolverBody& body = bodies[o];
@@ -217,7 +217,7 @@ std::vector<BodyChange> RigidWorld::Parts::changes(double time_step, const StepS
   settings.iterations = joints.empty() ? contact_iterations : joint_iterations;
   settings.planar = dimensions == 2;
   std::vector<JointRow> rows;
-  for (const Joint& joint : joints) joint.add_rows(states, inertias, time_step, settings.correction, rows);
+  for (const Joint& joint : joints) joint.add_rows(states, inertias, time, time_step, settings.correction, rows);
   const std::vector<Contact> touching = contacts->find(states.start);
   if (rows.empty() && touching.empty()) return std::vector<BodyChange>(owners.size() + 1);
   std::vector<BodyChange> result = solver.solve(bodies, touching, rows, settings);

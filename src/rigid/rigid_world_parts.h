@@ -30,7 +30,7 @@ struct RigidWorld::Parts {
   void ride(std::vector<RigidState>& states) const;
   std::vector<RigidState> at_middle(double time, double time_step) const;
   std::vector<RigidLoad> loads(double time, double time_step, const std::vector<RigidLoad>& fluid, const StepStates& states) const;
-  std::vector<BodyChange> changes(double time_step, const StepStates& states, const std::vector<RigidState>& given,
+  std::vector<BodyChange> changes(double time, double time_step, const StepStates& states, const std::vector<RigidState>& given,
                                   const std::vector<FreeMotion>& motions) const;
   std::string at_time(double time) const { return " at " + number_text(time) + " s"; }
   RigidOwner& checked(std::size_t owner, Motion motion, const char* word);

@@ -155,6 +155,23 @@ Section<Friction> friction_section() {
   return section;
 }
 
+/// true, or the place.
+Codec<std::optional<ImuCase>> imu() {
+  const std::string demand = "true, false, or its place, [x, y, z]";
+  return {"true, false or [x, y, z]", "",
+          [demand](const Setting& setting, const Item& item, Context& context) -> std::optional<ImuCase> {
+            if (setting.kind == Setting::Kind::list) return ImuCase{position().read(setting, item, context)};
+            if (setting.kind != Setting::Kind::scalar ||
+                (setting.text != "true" && setting.text != "True" && setting.text != "false" && setting.text != "False"))
+              refuse(setting, item, demand);
+            return flag().read(setting, item, context) ? std::optional<ImuCase>(ImuCase{}) : std::nullopt;
+          },
+          [](const std::optional<ImuCase>& value, const Context& context) -> std::optional<Setting> {
+            if (!value) return std::nullopt;
+            return value->position ? position().write(*value->position, context) : flag().write(true, context);
+          }};
+}
+
 Section<BodyCase> body_section() {
   Section<BodyCase> section;
   section
@@ -171,6 +188,8 @@ Section<BodyCase> body_section() {
   section.key_of<Box>(&BodyCase::shape, "box", Whole{}, section_of(box_section()), "", "A box.").required = true;
   add_mesh_keys(section, &BodyCase::shape);
   add_rigid_keys(section);
+  section.key("imu", &BodyCase::imu, imu(), "m",
+              "An inertial measurement unit: true, at the body's centre of mass, or its place at the start; it moves with the body.");
   section.rule([](const BodyCase& body, const Setting& map, const std::string& path, const Context&) {
     if (body.motion == Motion::fixed || body.surface_velocity.isZero(0.0)) return;
     throw Error(map.find("surface_velocity")->place.describe() + ": " + join_path(path, "surface_velocity") +
@@ -303,10 +322,19 @@ Section<InstrumentsCase> instruments_section() {
            "Of the vertical line; a z may be given and is ignored; in 2-D also [x]. With gravity nearer to y or x the line is along that: "
            "[x, z] or [y, z].")
       .required = true;
+  Section<VelocityProbeCase> velocity;
+  velocity.key("name", &VelocityProbeCase::name, name(), "", "Part of the name of the probe's topic.").required = true;
+  velocity.key("position", &VelocityProbeCase::position, position(), "m", "At the start, in the fluid; in 2-D also [x, z].").required =
+      true;
+  velocity.key("body", &VelocityProbeCase::body, text(), "", "The body that the probe is fixed to; empty: the tank.");
   Section<InstrumentsCase> section;
   section.key("pressure_probes", &InstrumentsCase::pressure_probes, list_of(probe), "", "Pressure probes.");
   section.key("wave_gauges", &InstrumentsCase::wave_gauges, list_of(gauge), "",
               "Wave gauges: the level of the free surface on lines along the axis nearest to gravity.");
+  section.key("velocity_probes", &InstrumentsCase::velocity_probes, list_of(velocity), "",
+              "Velocity probes: the water's velocity at points, relative to the tank.");
+  section.key("sections", &InstrumentsCase::sections, list_of(flow_section()), "",
+              "Plane sections through which the discharge is measured.");
   const Range rates = above_up_to(0, 1e6);
   section.key("rate", &InstrumentsCase::rate, number(rates), "Hz",
               "Samples a second of simulated time, of all instruments without a rate of their own.");
@@ -316,9 +344,11 @@ Section<InstrumentsCase> instruments_section() {
   section.key("energy_rate", &InstrumentsCase::energy_rate, number_or_auto(rates), "Hz",
               "Of energies and mass; `auto` is `instruments/rate`.");
   section.key("flow_rate", &InstrumentsCase::flow_rate, number_or_auto(rates), "Hz",
-              "Of the discharges at openings; `auto` is `instruments/rate`.");
+              "Of the discharges at openings and through sections; `auto` is `instruments/rate`.");
   section.key("pose_rate", &InstrumentsCase::pose_rate, number_or_auto(rates), "Hz",
-              "Of moving bodies' poses and of joints; `auto` is 100, or `instruments/rate` where that is less.");
+              "Of moving bodies' poses, of joints and of moorings; `auto` is 100, or `instruments/rate` where that is less.");
+  section.key("imu_rate", &InstrumentsCase::imu_rate, number_or_auto(rates), "Hz",
+              "Of inertial measurement units; `auto` is that of the poses.");
   return section;
 }
 

@@ -28,7 +28,8 @@ class NameCheck {
     if (name == "tank") throw Error(start + "which is reserved for the tank itself; give another name");
     if (name == world_frame_) throw Error(start + "which is the world_frame too; give another name");
     const auto [earlier, is_new] = paths_.emplace(name, path);
-    if (!is_new) throw Error(start + "as is " + earlier->second + "; every body, probe, gauge and opening must have a name of its own");
+    if (!is_new)
+      throw Error(start + "as is " + earlier->second + "; every body, probe, gauge, section and opening must have a name of its own");
   }
 
   const Setting& root_;
@@ -212,16 +213,28 @@ void check_levels(const Case& read, const Setting& root) {
   }
 }
 
-void check_probes(const Case& read, const Setting& root) {
-  for (std::size_t i = 0; i < read.instruments.pressure_probes.size(); ++i) {
-    const std::string& name = read.instruments.pressure_probes[i].body;
+template <class Probe>
+void check_probes(const Case& read, const std::vector<Probe>& probes, const std::string& list, const Setting& root) {
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const std::string& name = probes[i].body;
     const auto is_it = [&](const BodyCase& body) { return body.name == name; };
     if (name.empty() || std::any_of(read.bodies.begin(), read.bodies.end(), is_it)) continue;
     std::string known;
     for (const BodyCase& body : read.bodies) known += (known.empty() ? "" : ", ") + body.name;
-    clash(root, join_path(join_path("instruments/pressure_probes", i), "body"),
+    clash(root, join_path(join_path(list, i), "body"),
           name + ", which is no body of the case; " + (known.empty() ? "it has none" : "name one of " + known) +
               ", or leave it out for the tank");
+  }
+}
+
+void check_moorings(const std::vector<MooringCase>& moorings, const std::string& list, const Setting& root) {
+  std::map<std::string, std::string> paths;  // by name
+  for (std::size_t i = 0; i < moorings.size(); ++i) {
+    if (moorings[i].name.empty()) continue;
+    const std::string path = join_path(join_path(list, i), "name");
+    const auto [earlier, is_new] = paths.emplace(moorings[i].name, path);
+    if (!is_new)
+      clash(root, path, moorings[i].name + ", as is " + earlier->second + "; every mooring of a body must have a name of its own");
   }
 }
 
@@ -294,8 +307,14 @@ void check_case(const Case& read, const Setting& root) {
     check_body_name(read.bodies[i].name, join_path(join_path("bodies", i), "name"), root);
   names.check(read.instruments.pressure_probes, "instruments/pressure_probes");
   names.check(read.instruments.wave_gauges, "instruments/wave_gauges");
+  names.check(read.instruments.velocity_probes, "instruments/velocity_probes");
+  names.check(read.instruments.sections, "instruments/sections");
   names.check(read.openings, "openings");
-  check_probes(read, root);
+  check_probes(read, read.instruments.pressure_probes, "instruments/pressure_probes", root);
+  check_probes(read, read.instruments.velocity_probes, "instruments/velocity_probes", root);
+  check_moorings(read.tank.rigid.moorings, "tank/moorings", root);
+  for (std::size_t b = 0; b < read.bodies.size(); ++b)
+    check_moorings(read.bodies[b].rigid.moorings, join_path(join_path("bodies", b), "moorings"), root);
   check_openings(read, root);
 }
 

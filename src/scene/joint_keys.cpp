@@ -22,7 +22,8 @@ const std::vector<JointKey>& joint_keys() {
                                           {"six_limits", {JointType::six_dof}},
                                           {"stiffness", {JointType::hinge, JointType::slider, JointType::spring}},
                                           {"damping", {JointType::hinge, JointType::slider, JointType::spring}},
-                                          {"length", {JointType::spring}}};
+                                          {"length", {JointType::spring}},
+                                          {"command", {JointType::hinge, JointType::slider}}};
   return keys;
 }
 
@@ -54,6 +55,25 @@ Section<SixLimits> six_limits_section() {
   add("roll", 3, angle_limits(half_turn), false, "°", "About x" + free);
   add("pitch", 4, angle_limits(upright), true, "°", "About y" + free);
   add("yaw", 5, angle_limits(half_turn), false, "°", "About z" + free);
+  return section;
+}
+
+Section<JointCommandCase> command_section() {
+  Section<JointCommandCase> section;
+  section.key("quantity", &JointCommandCase::quantity,
+              choice<JointQuantity>({{"effort", JointQuantity::effort}, {"velocity", JointQuantity::velocity}}), "",
+              "What is commanded: a force or torque, or the joint's velocity, which is held by one.");
+  section.key("greatest_effort", &JointCommandCase::greatest_effort, number_or_none(greater_than(0)), "N or N·m",
+              "Limit of the force or torque, of either quantity; in 2-D a metre of width.");
+  section.key("greatest_velocity", &JointCommandCase::greatest_velocity, number_or_none(greater_than(0)), "m/s or rad/s",
+              "Limit of a velocity that is commanded.");
+  section.key("timeout", &JointCommandCase::timeout, number(at_least(0)), "s",
+              "Of simulated time without a command, after which an effort ends and a velocity is 0; 0 = never.");
+  section.rule([](const JointCommandCase& command, const Setting& map, const std::string& path, const Context&) {
+    if (command.greatest_velocity && command.quantity != JointQuantity::velocity)
+      refuse_key(map, path, "greatest_velocity",
+                 "is of the quantity velocity only; leave it out, or set " + join_path(path, "quantity") + " to that");
+  });
   return section;
 }
 
@@ -131,6 +151,8 @@ Section<JointCase> joint_section() {
   add("damping", &JointCase::damping, number(at_least(0)), "N·s/m or N·m·s/rad", "Of spring, slider and hinge; in 2-D a metre of width.");
   add("length", &JointCase::length, number_if_given(at_least(0)), "m",
       "Of a spring, unstretched; if it is left out, the distance of its ends at the start.");
+  add("command", &JointCase::command, section_if_given(command_section()), "",
+      "Of hinge and slider: its effort or velocity is commanded while it runs, and 0 before; what is commanded and its limits, or {}.");
   section.converts(
       [](JointCase& joint) {
         if (joint.type == JointType::hinge && joint.limits) joint.limits = {(*joint.limits)[0] * degree, (*joint.limits)[1] * degree};

@@ -125,6 +125,23 @@ void check_start(const std::string& text, const std::string& key, const std::str
   if (value < 0 && !may_be_negative) refuse(*map.find(key), item, "at least 0, also as an expression of t");
 }
 
+/// Of the plane that an opening or a section lies in; `what`: which of them, `way`: of its normal, for messages.
+template <class Plane>
+void check_plane(const Plane& plane, const std::string& what, const std::string& way, const Setting& map, const std::string& path,
+                 const Context& context) {
+  if (plane.normal.isZero(0.0) && map.find("normal") != nullptr)
+    refuse_vector(map, path, "normal", plane.normal, "a direction " + way + ", not all 0");
+  if (context.dimensions == 2 && plane.normal.y() != 0)
+    refuse_vector(map, path, "normal", plane.normal, "within the x–z plane of a 2-D case, [x, z]");
+  if (context.dimensions == 2 && plane.diameter)
+    refuse_key(map, path, "diameter",
+               "is for 3-D cases; in 2-D " + std::string(what == "opening" ? "an " : "a ") + what +
+                   " is a slot: give size: [width, height], whose width is not used");
+  if (plane.diameter && plane.up) refuse_key(map, path, "up", "is for rectangles; leave it out of a disc");
+  if (plane.up && !plane.normal.isZero(0.0) && plane.up->cross(plane.normal).norm() <= 1e-6 * plane.up->norm() * plane.normal.norm())
+    refuse_key(map, path, "up", "is along " + join_path(path, "normal") + "; it must be a direction within the " + what);
+}
+
 void check_shape(const OpeningCase& opening, const Setting& map, const std::string& path, const Context& context) {
   if (opening.part.empty()) {
     for (const char* key : {"centre", "normal"})
@@ -132,16 +149,7 @@ void check_shape(const OpeningCase& opening, const Setting& map, const std::stri
   } else if (map.find("centre") != nullptr) {
     refuse_key(map, path, "centre", "is given as well as part, which is where it is; give one of them");
   }
-  if (opening.normal.isZero(0.0) && map.find("normal") != nullptr)
-    refuse_vector(map, path, "normal", opening.normal, "a direction into the water, not all 0");
-  if (context.dimensions == 2 && opening.normal.y() != 0)
-    refuse_vector(map, path, "normal", opening.normal, "within the x–z plane of a 2-D case, [x, z]");
-  if (context.dimensions == 2 && opening.diameter)
-    refuse_key(map, path, "diameter", "is for 3-D cases; in 2-D an opening is a slot: give size: [width, height], whose width is not used");
-  if (opening.diameter && opening.up) refuse_key(map, path, "up", "is for rectangles; leave it out of a disc");
-  if (opening.up && !opening.normal.isZero(0.0) &&
-      opening.up->cross(opening.normal).norm() <= 1e-6 * opening.up->norm() * opening.normal.norm())
-    refuse_key(map, path, "up", "is along " + join_path(path, "normal") + "; it must be a direction within the opening");
+  check_plane(opening, "opening", "into the water", map, path, context);
   const bool given_flow = !opening.discharge.empty() || opening.record || opening.command || opening.kind == OpeningKind::inlet;
   if (opening.profile != "uniform" && (opening.kind == OpeningKind::pressure || !given_flow))
     refuse_key(map, path, "profile", "is for inlets, and for outlets of a given discharge; leave it out");
@@ -210,6 +218,25 @@ Section<OpeningCase> opening_section() {
       check_start(opening.velocity, "velocity", "m/s", map, path, false);
     check_start(opening.discharge, "discharge", context.dimensions == 2 ? "m²/s" : "m³/s", map, path, false);
     check_start(opening.head, "head", "m", map, path, true);
+  });
+  return section;
+}
+
+Section<FlowSectionCase> flow_section() {
+  Section<FlowSectionCase> section;
+  section.key("name", &FlowSectionCase::name, name(), "", "Part of the name of the section's topic.").required = true;
+  section.key("centre", &FlowSectionCase::centre, position(), "m", "Its middle; in 2-D also [x, z].").required = true;
+  section.key("normal", &FlowSectionCase::normal, vector(), "", "Direction that counts as positive; of any length.").required = true;
+  section
+      .key("size", &FlowSectionCase::size, if_given(rectangle_size()), "m",
+           "Of a rectangle. What of it lies in walls or bodies does not count, so that it may be larger than the channel.")
+      .required = true;
+  section.key("diameter", &FlowSectionCase::diameter, number_if_given(greater_than(0)), "m", "Of a disc, in 3-D.").required = true;
+  section.exactly_one_of({{"size"}, {"diameter"}});
+  section.key("up", &FlowSectionCase::up, if_given(vector()), "",
+              "Direction of the height of `size`; if it is left out, against gravity, or along x where that is the normal's.");
+  section.rule([](const FlowSectionCase& given, const Setting& map, const std::string& path, const Context& context) {
+    check_plane(given, "section", "through it", map, path, context);
   });
   return section;
 }

@@ -31,19 +31,95 @@ Section<ForceCase> force_section() {
   return section;
 }
 
+// Keys that not every kind of line has: written, and allowed, with that kind only.
+struct LineKey {
+  const char* name;
+  MooringLine line;
+  bool required;
+};
+const LineKey line_keys[] = {{"stiffness", MooringLine::spring, true}, {"damping", MooringLine::spring, false},
+                             {"slack", MooringLine::spring, false},    {"weight", MooringLine::catenary, true},
+                             {"bed", MooringLine::catenary, false},    {"axial_stiffness", MooringLine::catenary, false}};
+
+Codec<std::string> name_if_given() {
+  Codec<std::string> codec = name();
+  codec.write = [write = codec.write](const std::string& value, const Context& context) -> std::optional<Setting> {
+    if (value.empty()) return std::nullopt;
+    return write(value, context);
+  };
+  return codec;
+}
+
+Codec<MooringLine> line_word() { return choice<MooringLine>({{"spring", MooringLine::spring}, {"catenary", MooringLine::catenary}}); }
+
+void check_mooring(const MooringCase& mooring, const Setting& map, const std::string& path, const Context& context) {
+  const auto word = [&](MooringLine line) { return line_word().write(line, context)->text; };
+  for (const LineKey& key : line_keys) {
+    const bool given = map.find(key.name) != nullptr;
+    if (key.line != mooring.line && given)
+      refuse_key(map, path, key.name,
+                 "is of the line " + word(key.line) + " only; leave it out, or set " + join_path(path, "line") + " to that");
+    if (key.line == mooring.line && key.required && !given)
+      refuse_key(map, path, key.name, "is missing; a mooring of the line " + word(key.line) + " needs it (number, N/m)");
+  }
+  if (mooring.line != MooringLine::catenary) return;
+  if (!mooring.length) refuse_key(map, path, "length", "is missing; a mooring of the line catenary needs it (number, m)");
+  const double distance = (mooring.attachment - mooring.anchor).norm();
+  if (!mooring.axial_stiffness && *mooring.length <= distance)
+    refuse(*map.find("length"), {join_path(path, "length"), "m"},
+           "greater than the distance of its ends at the start, " + number_text(distance) + ", where no axial_stiffness is given");
+}
+
 Section<MooringCase> mooring_section() {
   Section<MooringCase> section;
+  const auto add = [&](const std::string& name, auto member, const auto& codec, const std::string& unit,
+                       const std::string& description) -> KeyDescription& {
+    MooringLine line{};
+    for (const LineKey& key : line_keys)
+      if (name == key.name) line = key.line;
+    return section.key_where([line](const MooringCase& mooring) { return mooring.line == line; }, name, member, codec, unit, description);
+  };
+  section.key("name", &MooringCase::name, name_if_given(), "",
+              "Part of the name of its topic, its own among the moorings of its body; if it is left out, its place in the list, from 0.");
+  section.key(
+      "line", &MooringCase::line, line_word(), "",
+      "What the line is: a linear `spring` with a damper, or a `catenary`, which hangs by its weight and is at rest at every instant.");
   section
       .key("anchor", &MooringCase::anchor, position(), "m",
            "The fixed end: of a body's mooring it moves with the tank, of the tank's own it stands in the world.")
       .required = true;
   section.key("attachment", &MooringCase::attachment, position(), "m", "The other end, where it is at the start; moves with the body.")
       .required = true;
-  section.key("stiffness", &MooringCase::stiffness, number(at_least(0)), "N/m", "In 2-D a metre of width (N/m²).").required = true;
-  section.key("damping", &MooringCase::damping, number(at_least(0)), "N·s/m", "Along the line; in 2-D a metre of width (N·s/m²).");
+  add("stiffness", &MooringCase::stiffness, number(at_least(0)), "N/m", "Of a spring, required for it; in 2-D a metre of width (N/m²).");
+  add("damping", &MooringCase::damping, number(at_least(0)), "N·s/m", "Of a spring, along the line; in 2-D a metre of width (N·s/m²).");
   section.key("length", &MooringCase::length, number_if_given(at_least(0)), "m",
-              "Unstretched; if it is left out, the distance of the ends at the start.");
-  section.key("slack", &MooringCase::slack, flag(), "", "Whether it pulls only, as a rope; else it pushes too.");
+              "Unstretched, required for a catenary; if it is left out of a spring, the distance of the ends at the start.");
+  add("slack", &MooringCase::slack, flag(), "", "Of a spring: whether it pulls only, as a rope; else it pushes too.");
+  add("weight", &MooringCase::weight, number(greater_than(0)), "N/m",
+      "Of a catenary, required for it: of a metre of the line, less its buoyancy; in 2-D a metre of width (N/m²).");
+  add("axial_stiffness", &MooringCase::axial_stiffness, number_if_given(greater_than(0)), "N",
+      "Of a catenary, EA; if it is left out, the line does not stretch, and the run stops where it is taut. In 2-D a metre of width "
+      "(N/m).");
+  add("bed", &MooringCase::bed, flag(), "",
+      "Of a catenary: whether it lies, without friction, on a level bed at its anchor's height; else it may hang below that.");
+  section.rule(check_mooring);
+  return section;
+}
+
+Section<WindCase> wind_section() {
+  Section<WindCase> section;
+  section.key("velocity", &WindCase::velocity, vector_in_plane(), "m/s", "The mean.").required = true;
+  section.key("area", &WindCase::area, number(greater_than(0)), "m²", "Of the body over the water, across the wind; in 2-D its height (m).")
+      .required = true;
+  section.key("centre", &WindCase::centre, if_given(position()), "m",
+              "Of that area, where it is at the start; moves with the body; if it is left out, the centre of mass.");
+  section.key("drag_coefficient", &WindCase::drag_coefficient, number(at_least(0)), "", "C of the force ½ ρ C A |U − u| (U − u).");
+  section.key("density", &WindCase::density, number(greater_than(0)), "kg/m³", "ρ of the air.");
+  section.key("gust_intensity", &WindCase::gust_intensity, number(between(0, 1)), "",
+              "Standard deviation of the wind's speed over its mean; 0: it is constant.");
+  section.key("gust_time", &WindCase::gust_time, number(greater_than(0)), "s",
+              "Integral time scale of the gusts, whose autocorrelation decays exponentially.");
+  section.key("seed", &WindCase::seed, whole_number(between(0, 1e9)), "", "Of the gusts: the same gusts for the same seed.");
   return section;
 }
 
@@ -112,9 +188,9 @@ struct MotionKey {
   const char* name;
   Motion motion;
 };
-const MotionKey motion_keys[] = {{"velocity", Motion::free},     {"angular_velocity", Motion::free}, {"prescribed", Motion::prescribed},
-                                 {"command", Motion::commanded}, {"forces", Motion::free},           {"moorings", Motion::free},
-                                 {"water_film", Motion::free}};
+const MotionKey motion_keys[] = {
+    {"velocity", Motion::free}, {"angular_velocity", Motion::free}, {"prescribed", Motion::prescribed}, {"command", Motion::commanded},
+    {"forces", Motion::free},   {"moorings", Motion::free},         {"water_film", Motion::free},       {"wind", Motion::free}};
 
 template <class T>
 void add_motion_keys(Section<T>& section) {
@@ -131,8 +207,10 @@ void add_motion_keys(Section<T>& section) {
   add("prescribed", &RigidCase::prescribed, section_of(prescribed_section()), "", "The motion, if prescribed.");
   add("command", &RigidCase::command, section_of(command_section()), "", "Limits on the motion, if commanded.");
   add("forces", &RigidCase::forces, list_of(force_section()), "", "From outside, on what is free.");
-  add("moorings", &RigidCase::moorings, list_of(mooring_section()), "", "Lines that hold what is free: springs with dampers.");
+  add("moorings", &RigidCase::moorings, list_of(mooring_section()), "",
+      "Lines that hold what is free: springs with dampers, or catenaries.");
   if constexpr (!is_tank<T>) {
+    add("wind", &RigidCase::wind, section_if_given(wind_section()), "", "On what of a free body is over the water.");
     add("water_film", &RigidCase::water_film, flag(), "",
         "Whether a film of water presses on what of a free body lies on a wall, or nearer to it than a spacing; if not, it is sealed "
         "there.");

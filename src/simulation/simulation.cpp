@@ -306,6 +306,8 @@ void Simulation::command(std::size_t owner, const Vector3d& velocity, const Vect
 
 void Simulation::command_discharge(std::size_t opening, double discharge) { parts_->openings.command(opening, parts_->time, discharge); }
 
+void Simulation::command_joint(std::size_t joint, double value) { parts_->world.command_joint(joint, parts_->time, value); }
+
 const std::vector<OpeningState>& Simulation::openings() const { return parts_->openings.states(); }
 
 const RigidWorld& Simulation::bodies() const { return parts_->world; }

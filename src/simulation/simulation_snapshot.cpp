@@ -86,6 +86,7 @@ void Simulation::save(const std::string& path) const {
   snapshot.step = parts.step;
   snapshot.guard_hits = parts.guard_hits;
   snapshot.clocks = parts.recorder.clock_indices();
+  snapshot.instruments = parts.recorder.memory();
   snapshot.bodies = parts.saved_bodies();
   snapshot.openings = parts.openings.save();
   snapshot.fluid = parts.solver->save();
@@ -115,6 +116,7 @@ void Simulation::restore(const std::string& path) {
   parts.report = StepReport{};
   parts.report.time_step = snapshot.time_step;
   parts.recorder.set_clock_indices(snapshot.clocks);
+  parts.recorder.set_memory(snapshot.instruments);
 }
 
 }  // namespace wavetank

@@ -12,7 +12,7 @@
 namespace wavetank {
 namespace {
 
-constexpr char magic[] = "wavetank snapshot 4\n";
+constexpr char magic[] = "wavetank snapshot 5\n";
 constexpr std::size_t magic_size = sizeof magic - 1;
 
 /// FNV-1a over 64 bits: finds truncation and damage, which is all that is asked of it.
@@ -78,6 +78,8 @@ void write_snapshot(const std::string& path, const Snapshot& snapshot) {
   writer.value(snapshot.step);
   writer.value(snapshot.guard_hits);
   for (const std::uint64_t clock : snapshot.clocks) writer.value(clock);
+  writer.value(static_cast<std::uint64_t>(snapshot.instruments.size()));
+  for (const double value : snapshot.instruments) writer.value(value);
   writer.block(snapshot.bodies);
   writer.block(snapshot.openings);
   writer.block(snapshot.fluid);
@@ -93,7 +95,7 @@ Snapshot read_snapshot(const std::string& path) {
   const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) throw Error("cannot read the snapshot " + path + ": " + std::strerror(errno) + ".");
   if (bytes.size() < magic_size || std::memcmp(bytes.data(), magic, magic_size) != 0)
-    throw Error(path + " is not a snapshot of this version of wavetank: it does not begin with \"wavetank snapshot 4\".");
+    throw Error(path + " is not a snapshot of this version of wavetank: it does not begin with \"wavetank snapshot 5\".");
   const std::string damage =
       "the snapshot " + path + " is truncated or damaged: its checksum does not match its " + std::to_string(bytes.size()) + " bytes.";
   std::uint64_t stored = 0;
@@ -111,6 +113,9 @@ Snapshot read_snapshot(const std::string& path) {
   reader.value(snapshot.step);
   reader.value(snapshot.guard_hits);
   for (std::uint64_t& clock : snapshot.clocks) reader.value(clock);
+  std::uint64_t remembered = 0;
+  reader.value(remembered);
+  for (std::uint64_t k = 0; k < remembered; ++k) reader.value(snapshot.instruments.emplace_back());
   reader.block(snapshot.bodies);
   reader.block(snapshot.openings);
   reader.block(snapshot.fluid);

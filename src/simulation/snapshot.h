@@ -16,7 +16,8 @@ struct Snapshot {
   double time_step = 0;  ///< s, of the next step
   std::uint64_t step = 0;
   std::uint64_t guard_hits = 0;
-  std::array<std::uint64_t, 6> clocks{};
+  std::array<std::uint64_t, 10> clocks{};
+  std::vector<double> instruments;  ///< what they remember
   std::vector<char> bodies;
   std::vector<char> openings;
   std::vector<char> fluid;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "build_options.h"
 #include "tiling.h"
 #include "wavetank/compute/arguments.h"
 
@@ -36,9 +37,11 @@ class KernelMaker {
   BoundSweep over_runs(const std::string& file, const std::string& name, const compute::Arguments& arguments) const {
     return {over_particles(file, name, arguments).kernel, 1};
   }
-  /// A sweep about points or pieces of wall, which need not lie together.
-  BoundSweep over_points(const std::string& file, const std::string& name, const compute::Arguments& arguments) const {
-    return {{kernel(file, name, options_ + fast + tiling_.points.build_options()), arguments}, 1};
+  /// A sweep about points or pieces of wall, which need not lie together. `own`: definitions beside those that all kernels share.
+  BoundSweep over_points(const std::string& file, const std::string& name, const compute::Arguments& arguments,
+                         const BuildOptions& own = {}) const {
+    const std::string more = own.empty() ? "" : " " + text_of(own);
+    return {{kernel(file, name, options_ + more + fast + tiling_.points.build_options()), arguments}, 1};
   }
 
  private:

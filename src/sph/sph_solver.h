@@ -45,7 +45,7 @@ class SphSolver final : public Solver, private StepEngine {
   void set_drains(const std::vector<Drain>& drains) override;
   void set_zones(const std::vector<ImposedZone>& zones) override;
   std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
-  std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override;
+  std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;
   FluidEnergies energies() override;

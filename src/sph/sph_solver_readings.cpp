@@ -5,13 +5,14 @@
 namespace wavetank {
 namespace {
 
-constexpr std::size_t point_results = 6;  // pressure, filling, γ, and where there are openings the velocity
+constexpr std::size_t point_results = 6;  // pressure, filling, γ, and where it is wanted the velocity
 
 }  // namespace
 
 template <class Real>
 struct SphSolver<Real>::DevicePoints final : PointSet {
-  DevicePoints(const compute::Device& on, const Eigen::Vector3d& grid_origin) : device(on), origin(grid_origin) {}
+  DevicePoints(const compute::Device& on, const Eigen::Vector3d& grid_origin, bool with_velocities)
+      : device(on), origin(grid_origin), velocities(with_velocities) {}
 
   void set(const std::vector<Eigen::Vector3d>& points) override {
     count = static_cast<int>(points.size());
@@ -25,6 +26,7 @@ struct SphSolver<Real>::DevicePoints final : PointSet {
 
   compute::Device device;
   Eigen::Vector3d origin;
+  bool velocities;
   int count = 0;
   KeptBuffer<Real> places;
   mutable Buffer results;
@@ -33,8 +35,9 @@ struct SphSolver<Real>::DevicePoints final : PointSet {
 };
 
 template <class Real>
-std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::Vector3d>& points) const {
-  auto set = std::make_unique<DevicePoints>(device_, discretisation_.origin);
+std::unique_ptr<PointSet> SphSolver<Real>::make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const {
+  auto set =
+      std::make_unique<DevicePoints>(device_, discretisation_.origin, wanted == PointValues::velocity || options_.at("OPENINGS") != 0);
   set->set(points);
   bind(*set);
   return set;
@@ -44,7 +47,7 @@ template <class Real>
 void SphSolver<Real>::bind(const DevicePoints& set) const {
   compute::Arguments all = arguments();
   all.value("count", set.count).memory("points", set.places.on_device()).memory("results", set.results);
-  set.kernel = make_->over_points("points.cl", "points", all);
+  set.kernel = make_->over_points("points.cl", "points", all, {{"VELOCITIES", set.velocities}});
   set.binding = bindings_;
 }
 
@@ -53,8 +56,7 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
   const auto& points = dynamic_cast<const DevicePoints&>(set);
   if (points.binding != bindings_) bind(points);
   points.kernel.launch(points.count);
-  const bool velocities = options_.at("OPENINGS") != 0;
-  std::vector<Real> results = points.results.download((velocities ? point_results : 3) * static_cast<std::size_t>(points.count));
+  std::vector<Real> results = points.results.download((points.velocities ? point_results : 3) * static_cast<std::size_t>(points.count));
   results.resize(point_results * static_cast<std::size_t>(points.count), Real(0));
   std::vector<PointValue> values(points.count);
   for (int i = 0; i < points.count; ++i) {
@@ -154,7 +156,7 @@ PairCount SphSolver<Real>::count_pairs() {
           std::accumulate(values.begin() + count_, values.end(), std::uint64_t{0})};
 }
 
-template std::unique_ptr<PointSet> SphSolver<float>::make_points(const std::vector<Eigen::Vector3d>&) const;
+template std::unique_ptr<PointSet> SphSolver<float>::make_points(const std::vector<Eigen::Vector3d>&, PointValues) const;
 template std::vector<PointValue> SphSolver<float>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<float>::wrenches();
 template FluidEnergies SphSolver<float>::energies();
@@ -162,7 +164,7 @@ template LostVolume SphSolver<float>::lost_volume();
 template FluidState SphSolver<float>::download();
 template FluidSurface SphSolver<float>::find_surface();
 template PairCount SphSolver<float>::count_pairs();
-template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vector<Eigen::Vector3d>&) const;
+template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vector<Eigen::Vector3d>&, PointValues) const;
 template std::vector<PointValue> SphSolver<double>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<double>::wrenches();
 template FluidEnergies SphSolver<double>::energies();

@@ -35,7 +35,7 @@ class ClockedFluid final : public Solver {
   void set_drains(const std::vector<Drain>&) override {}
   void set_zones(const std::vector<ImposedZone>&) override {}
   std::optional<ThinWall> thinnest_wall() const override { return {}; }
-  std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const override {
+  std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues) const override {
     auto set = std::make_unique<Points>();
     set->count = points.size();
     return set;

@@ -14,19 +14,22 @@ import roslib.packages
 import rospy
 import rostest
 from ear import Ear
-from geometry_msgs.msg import Twist, WrenchStamped
+from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import JointState, PointCloud2
+from sensor_msgs.msg import Imu, JointState, PointCloud2
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
-from wavetank.msg import ProbeArray, SolverStatus, WaveGaugeArray
+from wavetank.msg import MooringTension, ProbeArray, SectionFlow, SolverStatus, WaveGaugeArray
 
 FLOATING_BOX = os.path.join(os.path.dirname(os.path.abspath(__file__)), "floating_box.yaml")
 BOX = "/wavetank/bodies/box/odom"
 TROLLEY = "/wavetank/bodies/trolley/odom"
 CARRIAGE = "/carriage/bodies/tank/odom"
+IMU = "/wavetank/bodies/box/imu"
+CHAIN = "/wavetank/bodies/box/moorings/chain/tension"
 TOPICS = {
     BOX: Odometry,
     TROLLEY: Odometry,
@@ -36,6 +39,12 @@ TOPICS = {
     "/wavetank/markers": MarkerArray,
     "/wavetank/probes": ProbeArray,
     "/wavetank/gauges": WaveGaugeArray,
+    "/wavetank/gauges/H1": PointStamped,
+    "/wavetank/velocities/V1": Vector3Stamped,
+    "/wavetank/velocities/V2": Vector3Stamped,
+    "/wavetank/sections/S1": SectionFlow,
+    IMU: Imu,
+    CHAIN: MooringTension,
     "/tf": TFMessage,
     "/tf_static": TFMessage,
     "/rosout": Log,
@@ -158,15 +167,65 @@ class Bodies(unittest.TestCase):
             compared += 1
         self.assertGreater(compared, 100)
         static = {t.child_frame_id for message in self.ear.all("/tf_static") for t in message.transforms}
-        self.assertEqual(static, {"tank/probes/P1", "tank/bodies/step"}, "only what does not move")
+        self.assertEqual(static, {"tank/probes/P1", "tank/bodies/step", "tank/bodies/box/imu"}, "only what does not move")
 
     def test_04_wrench_markers_and_joints(self):
         self.assertEqual(self.ear.last("/wavetank/bodies/box/wrench").header.frame_id, "tank/bodies/box")
-        frames = {marker.id: marker.header.frame_id for marker in self.ear.last("/wavetank/markers").markers if marker.ns == "bodies"}
-        self.assertEqual(frames, {0: "tank/bodies/box", 1: "tank/bodies/trolley", 2: "tank"})
+        frames = {marker.id: marker.header.frame_id for marker in self.ear.all("/wavetank/markers")[0].markers if marker.ns == "bodies"}
+        self.assertEqual(frames, {0: "tank/bodies/box", 1: "tank/bodies/trolley", 2: "tank", 3: "tank/bodies/paddle"})
         joints = self.ear.all("/wavetank/joint_states")[0]
-        self.assertEqual(joints.name, ["fender"])
+        self.assertEqual(joints.name, ["fender", "shaft"])
         self.assertAlmostEqual(joints.position[0], 0.28, 9, "a spring's length")
+
+    def test_04a_every_instrument_has_a_topic_of_its_own(self):
+        levels = {message.header.stamp.to_nsec(): message.levels[0] for message in self.ear.all("/wavetank/gauges")}
+        points = self.ear.all("/wavetank/gauges/H1")[:-1]
+        self.assertGreater(len(points), 100)
+        for point in points:
+            self.assertEqual((point.point.x, point.point.y), (0.1, 0.0))
+            self.assertEqual(point.point.z, levels[point.header.stamp.to_nsec()], "to the last bit")
+        water, air = self.ear.last("/wavetank/velocities/V1"), self.ear.last("/wavetank/velocities/V2")
+        self.assertEqual(water.header.frame_id, "tank")
+        self.assertLess(math.hypot(water.vector.x, water.vector.z), 0.1)
+        self.assertTrue(math.isnan(air.vector.x))
+        flow = self.ear.last("/wavetank/sections/S1")
+        self.assertAlmostEqual(flow.area, 0.24, delta=0.02)
+        self.assertLess(abs(flow.discharge), 0.02)
+        chain = self.ear.last(CHAIN)
+        self.assertEqual(chain.header.frame_id, "tank/bodies/box")
+        self.assertAlmostEqual(chain.tension, 5.0 * 0.19, delta=0.15, msg="what hangs of it")
+        self.assertAlmostEqual(chain.lying, 0.6 - 0.19, delta=0.03)
+
+    def test_04b_an_imu_says_what_odometry_says(self):
+        box = {o.header.stamp.to_nsec(): o for o in self.ear.all(BOX)}
+        readings = [imu for imu in self.ear.all(IMU) if imu.header.stamp.to_nsec() in box]
+        self.assertGreater(len(readings), 100)
+        self.assertEqual(readings[0].header.frame_id, "tank/bodies/box/imu")
+        calm = [imu.linear_acceleration for imu in readings if seconds(imu) > 0.5 * CALM]
+        mean = [sum(getattr(a, axis) for a in calm) / len(calm) for axis in "xyz"]
+        print("specific force %s m/s^2 on average" % mean)
+        self.assertLess(abs(mean[2] - 9.81), 0.05)
+        self.assertLess(math.hypot(mean[0], mean[1]), 0.05)
+        pitch = 0.0
+        for before, imu in zip(readings, readings[1:]):
+            pitch += 0.5 * (before.angular_velocity.y + imu.angular_velocity.y) * (seconds(imu) - seconds(before))
+            turn = box[imu.header.stamp.to_nsec()].pose.pose.orientation
+            self.assertLess(abs(pitch - 2.0 * math.atan2(turn.y, turn.w)), math.radians(0.2))
+
+    def test_04c_moorings_are_drawn_and_late_listeners_still_get_the_tank(self):
+        lines = [m for message in self.ear.all("/wavetank/markers") for m in message.markers if m.ns == "moorings"]
+        self.assertGreater(len(lines), 5, "twenty times a second")
+        start, end = lines[-1].points[0], lines[-1].points[-1]
+        self.assertAlmostEqual(start.x, 0.55, 9)
+        self.assertAlmostEqual(start.z, 0.0, 9)
+        self.assertAlmostEqual(end.x, self.ear.last(BOX).pose.pose.position.x, delta=0.01)
+        before = len(self.ear.all("/wavetank/markers"))
+        self.ear.subscribe_again("/wavetank/markers")
+
+        def comes():
+            return any(m.ns == "tank" for message in self.ear.all("/wavetank/markers")[before:] for m in message.markers)
+
+        self.ear.wait(comes, "the latched markers", 5)
 
     def test_05_a_wrench_shows_in_the_odometry_within_a_cloud_period(self):
         # In a try the machine may have been busy with something else; what the node itself takes is in every one.
@@ -266,6 +325,25 @@ class Bodies(unittest.TestCase):
         way = drive[-1].pose.pose.position.x - first.pose.pose.position.x
         self.assertAlmostEqual(way, 0.06, delta=0.002)
         self.assertEqual(len(self.warnings("a velocity with a NaN")), 1)
+
+    def test_09a_a_joint_is_driven_at_the_velocity_commanded_until_its_timeout(self):
+        def shaft():
+            joints = self.ear.last("/wavetank/joint_states")
+            return joints.position[1], joints.velocity[1]
+
+        turn = self.advertise("/wavetank/joints/shaft/command", Float64)
+        begin, speed_before = shaft()
+        self.assertAlmostEqual(speed_before, 0.0, 4)
+        turn.publish(Float64(2.0))  # limited to 1
+        self.let_messages_arrive()
+        self.run_until(self.time() + 0.1)
+        self.assertAlmostEqual(shaft()[1], 1.0, 4)
+        turn.publish(Float64(math.nan))
+        self.let_messages_arrive()
+        self.run_until(self.time() + 0.2)
+        self.assertAlmostEqual(shaft()[1], 0.0, 4)
+        self.assertAlmostEqual(shaft()[0] - begin, 0.2, delta=0.005)
+        self.assertEqual(len(self.warnings("a command that is NaN")), 1)
 
     def test_10_who_listens_to_a_paused_tank_gets_the_last_poses(self):
         before = len(self.transforms("tank/bodies/box"))

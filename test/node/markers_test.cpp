@@ -47,6 +47,21 @@ TEST(Markers, DrawTankBodiesProbesAndGauges) {
   }
 }
 
+TEST(Markers, DrawVelocityProbesAndSections) {
+  Case example = example_case();
+  example.instruments.velocity_probes = {{"V1", {2.5, 2.5, 3.1}}};
+  example.instruments.sections = {{"gap", {2.5, 2.5, 3.2}, {1, 0, 0}}};
+  Layout layout = example_layout();
+  FlowSection section;
+  section.outline = {{2.5, 2, 3}, {2.5, 3, 3}, {2.5, 3, 3.4}, {2.5, 2, 3.4}};
+  layout.sections = {section};
+  const auto drawing = markers(example, layout, example_frames());
+  EXPECT_EQ(find(drawing, "velocity probe names").text, "V1");
+  EXPECT_EQ(find(drawing, "velocity probes").pose.position.z, 3.1);
+  EXPECT_EQ(find(drawing, "section names").text, "gap");
+  EXPECT_EQ(find(drawing, "sections").points.size(), 5U) << "closed";
+}
+
 TEST(Markers, KeepAPackageMeshAsAResource) {
   Case example = example_case();
   MeshSource source;

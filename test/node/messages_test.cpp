@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <type_traits>
 
@@ -43,6 +44,101 @@ TEST(SampleMessages, GaugesStandOnTheTanksLowestPoint) {
   EXPECT_EQ(array.positions[0].x, 2.5);
   EXPECT_EQ(array.positions[0].z, 3.0);
   EXPECT_EQ(array.levels, (std::vector<double>{3.4}));
+}
+
+TEST(SampleMessages, AGaugesPointIsTheSurfaceOnItsLineToTheLastBit) {
+  const LevelSample sample{0.5, {3.0 + 1.0 / 3}};
+  Case example = example_case();
+  const SampleMessages messages(example, example_layout(), example_frames());
+  const geometry_msgs::PointStamped point = messages.gauge(0, sample, StampClock());
+  EXPECT_EQ(point.header.stamp, ros::Time(0.5));
+  EXPECT_EQ(point.header.frame_id, "basin");
+  EXPECT_EQ(point.point.x, 2.5);
+  EXPECT_EQ(point.point.y, 2.5);
+  EXPECT_EQ(point.point.z, messages.gauges(sample, StampClock()).levels[0]);
+  example.gravity = {9.81, 0, 0};
+  const SampleMessages along_x(example, example_layout(), example_frames());
+  EXPECT_EQ(along_x.gauge(0, {0.5, {1.25}}, StampClock()).point.x, 1.25) << "a level along x";
+}
+
+TEST(SampleMessages, VelocitiesAndSectionsHaveATopicEach) {
+  Case example = example_case();
+  example.instruments.velocity_probes = {{"V1", {2.5, 2.5, 3.1}}, {"V2", {2.5, 2.5, 3.9}}};
+  example.instruments.sections = {{"gap", {2.5, 2.5, 3.2}, {1, 0, 0}}};
+  const SampleMessages messages(example, example_layout(), example_frames());
+  const Vector3d dry = Vector3d::Constant(std::nan(""));
+  const VelocitySample velocities{0.25, {Vector3d(1, 2, 3), dry}};
+  const geometry_msgs::Vector3Stamped wet = messages.velocity(0, velocities, StampClock());
+  EXPECT_EQ(wet.header.stamp, ros::Time(0.25));
+  EXPECT_EQ(wet.header.frame_id, "basin");
+  EXPECT_EQ(wet.vector.y, 2.0);
+  EXPECT_TRUE(std::isnan(messages.velocity(1, velocities, StampClock()).vector.z));
+  const SectionFlow flow = messages.section(0, {0.5, {{0.02, 0.3}}}, StampClock());
+  EXPECT_EQ(flow.header.stamp, ros::Time(0.5));
+  EXPECT_EQ(flow.discharge, 0.02);
+  EXPECT_EQ(flow.area, 0.3);
+  Samples samples;
+  samples.velocities = {velocities};
+  samples.sections = {{0.5, {{0.02, 0.3}}}};
+  std::vector<std::string> topics;
+  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time&, const auto&) { topics.push_back(topic); });
+  EXPECT_EQ(topics, (std::vector<std::string>{"velocities/V1", "velocities/V2", "sections/gap"}));
+}
+
+TEST(SampleMessages, AnImuSpeaksInItsOwnFrame) {
+  Case example = test::moving_box_case();
+  example.bodies[0].imu = ImuCase{Vector3d(1.5, 2.5, 3.5)};
+  const SampleMessages messages(example, example_layout(), example_frames(example));
+  ImuSample sample;
+  sample.time = 0.5;
+  sample.readings.resize(1);
+  sample.readings[0].orientation = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitY());
+  sample.readings[0].angular_velocity = {1, 2, 3};
+  sample.readings[0].specific_force = {-9.81, 0, 0};
+  const sensor_msgs::Imu imu = messages.imu(0, sample, StampClock());
+  EXPECT_EQ(imu.header.frame_id, "basin/bodies/box/imu");
+  EXPECT_EQ(imu.header.stamp, ros::Time(0.5));
+  EXPECT_NEAR(imu.orientation.y, std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(imu.angular_velocity.z, 3.0);
+  EXPECT_EQ(imu.linear_acceleration.x, -9.81);
+  const auto transforms = static_transforms(example, example_frames(example));
+  EXPECT_EQ(transforms.back().header.frame_id, "basin/bodies/box");
+  EXPECT_EQ(transforms.back().child_frame_id, "basin/bodies/box/imu");
+  EXPECT_NEAR(transforms.back().transform.translation.x, -0.25, 1e-12);
+  EXPECT_NEAR(transforms.back().transform.translation.z, 0.3, 1e-12);
+  Samples samples;
+  samples.imus = {sample};
+  std::vector<std::string> topics;
+  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time&, const auto&) { topics.push_back(topic); });
+  EXPECT_EQ(topics, (std::vector<std::string>{"bodies/box/imu"}));
+}
+
+TEST(SampleMessages, MooringsTellTheirTensionAndAreDrawnTwentyTimesASecond) {
+  Case example = test::moving_box_case();
+  example.bodies[0].rigid.moorings.resize(2);
+  example.bodies[0].rigid.moorings[1].name = "bow";
+  const SampleMessages messages(example, example_layout(), example_frames(example));
+  Samples samples;
+  for (int k = 0; k < 100; ++k)
+    samples.moorings.push_back({0.01 * k, {{1.0 * k, 2, 3, {Vector3d(1, 2, 3), Vector3d(2, 2, 4)}}, {5, 6, 0, {Vector3d(1, 2, 3)}}}});
+  std::map<std::string, int> counts;
+  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time&, const auto& message) {
+    ++counts[topic];
+    if constexpr (std::is_same_v<std::decay_t<decltype(message)>, visualization_msgs::MarkerArray>) {
+      ASSERT_EQ(message.markers.size(), 2U);
+      EXPECT_EQ(message.markers[0].ns, "moorings");
+      EXPECT_EQ(message.markers[0].header.frame_id, "basin");
+      ASSERT_EQ(message.markers[0].points.size(), 2U);
+      EXPECT_EQ(message.markers[0].points[1].z, 4.0);
+    }
+  });
+  EXPECT_EQ(counts, (std::map<std::string, int>{
+                        {"bodies/box/moorings/0/tension", 100}, {"bodies/box/moorings/bow/tension", 100}, {"markers", 20}}));
+  const MooringTension tension = messages.mooring(0, samples.moorings[7], StampClock());
+  EXPECT_EQ(tension.header.frame_id, "basin/bodies/box");
+  EXPECT_EQ(tension.tension, 7.0);
+  EXPECT_EQ(tension.anchor_tension, 2.0);
+  EXPECT_EQ(tension.lying, 3.0);
 }
 
 TEST(SampleMessages, WrenchesAreTheSumOfPressureAndViscousParts) {
@@ -128,7 +224,8 @@ TEST(SampleMessages, EmitsEverySampleOnceOnEachTopic) {
   for (const char* topic : {"gauges", "bodies/tank/wrench", "bodies/tank/wrench/pressure", "bodies/tank/wrench/viscous",
                             "bodies/box/wrench", "bodies/box/wrench/pressure", "bodies/box/wrench/viscous"})
     EXPECT_EQ(stamps[topic].size(), 1U) << topic;
-  EXPECT_EQ(stamps.size(), 10U);
+  EXPECT_EQ(stamps["gauges/H1"].size(), 1U);
+  EXPECT_EQ(stamps.size(), 11U);
 }
 
 TEST(Names, BecomeValidGraphNames) {

@@ -142,12 +142,33 @@ class Bags(ProgramTest):
         self.assertEqual(kinds["/wavetank/bodies/box/odom"], "nav_msgs/Odometry")
         self.assertEqual(kinds["/wavetank/joint_states"], "sensor_msgs/JointState")
         self.assertNotIn("/wavetank/bodies/step/odom", kinds)
-        self.assertEqual(static, ["tank/probes/P1", "tank/bodies/step"])
+        self.assertEqual(static, ["tank/probes/P1", "tank/bodies/step", "tank/bodies/box/imu"])
         self.assertEqual([message[0].header.stamp.to_nsec() for message in transforms], poses)
         for message in transforms:
             frames = [(t.header.frame_id, t.child_frame_id) for t in message]
-            self.assertEqual(frames, [("world", "tank"), ("tank", "tank/bodies/box"), ("tank", "tank/bodies/trolley")])
+            self.assertEqual(frames, [("world", "tank")] + [("tank", "tank/bodies/" + body) for body in ("box", "trolley", "paddle")])
             self.assertEqual(len({t.header.stamp for t in message}), 1)
+
+    def test_holds_every_instrument_on_a_topic_of_its_own(self):
+        case = os.path.join(PACKAGE, "test", "node", "floating_box.yaml")
+        self.assert_runs(self.run_program(case, "--bag", "out.bag", "--duration", "0.05"))
+        kinds, counts, points, levels = {}, {}, [], []
+        with rosbag.Bag(self.path("out.bag")) as bag:
+            for topic, info in bag.get_type_and_topic_info()[1].items():
+                kinds[topic[len("/wavetank/"):]], counts[topic[len("/wavetank/"):]] = info.msg_type, info.message_count
+            for topic, message, _ in bag.read_messages(topics=["/wavetank/gauges", "/wavetank/gauges/H1"]):
+                (points if topic.endswith("H1") else levels).append(message)
+        for topic, kind, count in (
+            ("gauges/H1", "geometry_msgs/PointStamped", 51),
+            ("velocities/V1", "geometry_msgs/Vector3Stamped", 51),
+            ("sections/S1", "wavetank/SectionFlow", 51),
+            ("bodies/box/imu", "sensor_msgs/Imu", 26),
+            ("bodies/box/moorings/chain/tension", "wavetank/MooringTension", 26),
+        ):
+            self.assertEqual((kinds[topic], counts[topic]), (kind, count), topic)
+        self.assertEqual(counts["markers"], 3, "all at the start, and the moorings at 0 and 0.05 s")
+        self.assertEqual([p.header.stamp for p in points], [l.header.stamp for l in levels])
+        self.assertEqual([p.point.z for p in points], [l.levels[0] for l in levels])
 
     def test_the_case_in_a_bag_repeats_the_run(self):
         self.assert_runs(self.run_program(self.case(), "--bag", "first.bag", "--set", "fluid/density=998"))

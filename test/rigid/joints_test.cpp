@@ -448,6 +448,64 @@ TEST(Joints, ThatHoldNothingTogetherLeaveContacts) {
   }
 }
 
+TEST(Joints, ACommandedEffortTurnsTheHingeUntilItsTimeout) {
+  Case scene = hanging({2, 2, 2}, {0.1, 0.2, 1.0});
+  scene.gravity = Vector3d::Zero();
+  scene.joints = {joint_of(JointType::hinge, {2, 2, 2.5})};
+  scene.joints[0].command = JointCommandCase{JointQuantity::effort, 5.0, {}, 0.5};
+  Trial run(scene, 2e-4);
+  const MassProperties body = run.world.properties(1);
+  const double inertia = body.inertia(1, 1) + body.mass * 0.25;
+  run.until(0.1);
+  EXPECT_EQ(run.world.joint_state(0).velocity, 0) << "before the first command";
+  run.world.command_joint(0, run.time, 7.0);  // limited to 5
+  run.until(0.4);
+  EXPECT_NEAR(run.world.joint_state(0).velocity, 5.0 / inertia * 0.3, 1e-3 * 5.0 / inertia);
+  run.until(1);
+  const double end = run.world.joint_state(0).velocity;
+  EXPECT_NEAR(end, 5.0 / inertia * 0.5, 2e-3 * 5.0 / inertia) << "half a second of it";
+  run.until(1.2);
+  EXPECT_NEAR(run.world.joint_state(0).velocity, end, 1e-6);
+}
+
+TEST(Joints, ACommandedVelocityIsHeldByNoMoreThanItsEffort) {
+  Case scene = hanging({2, 2, 2}, {0.2, 0.2, 0.2});
+  scene.joints = {joint_of(JointType::slider, {2, 2, 2}, Vector3d::UnitZ())};
+  scene.joints[0].limits = {-1.0, 0.3};
+  scene.joints[0].command = JointCommandCase{JointQuantity::velocity, {}, 0.5, 0.5};
+  Trial run(scene, 5e-4);
+  run.until(0.2);
+  EXPECT_NEAR(run.world.joint_state(0).position, 0, 1e-9) << "without a command it holds, whatever the weight";
+  run.world.command_joint(0, run.time, 0.2);
+  run.until(0.6);
+  EXPECT_NEAR(run.world.joint_state(0).velocity, 0.2, 1e-6);
+  EXPECT_NEAR(run.world.joint_state(0).position, 0.2 * 0.4, 1e-3);
+  run.until(0.8);
+  EXPECT_NEAR(run.world.joint_state(0).velocity, 0, 1e-6) << "after its timeout";
+  run.world.command_joint(0, run.time, 9.0);  // limited to 0.5
+  run.steps(1);
+  EXPECT_NEAR(run.world.joint_state(0).velocity, 0.5, 1e-6);
+  run.until(1.29);
+  EXPECT_NEAR(run.world.joint_state(0).position, 0.3, 1e-3) << "at its limit";
+  const double weight = run.world.properties(1).mass * gravity;
+  scene.joints[0].command->greatest_effort = 1.5 * weight;
+  Trial weak(scene, 5e-4);
+  weak.world.command_joint(0, 0, 0.5);
+  weak.until(0.05);
+  EXPECT_NEAR(weak.world.joint_state(0).velocity, 0.5 * gravity * 0.05, 1e-3) << "half the weight is left to lift it";
+}
+
+TEST(Joints, OnlyThoseThatAreCommandedTakeCommands) {
+  Case scene = hanging({2, 2, 2}, {0.2, 0.2, 0.2});
+  scene.joints = {joint_of(JointType::hinge, {2, 2, 2.5}), joint_of(JointType::ball, {2, 2, 2.5})};
+  scene.joints[0].command = JointCommandCase{};
+  scene.joints[1].name = "other";
+  Trial run(scene, 1e-3);
+  EXPECT_EQ(error_of([&] { run.world.command_joint(1, 0, 1); }),
+            "joint 'other' is not commanded, so that it takes no efforts or velocities");
+  EXPECT_EQ(error_of([&] { run.world.command_joint(0, 0, std::nan("")); }), "what is commanded of joint 'joint' is not finite");
+}
+
 TEST(Joints, SaysWhatDoesNotFit) {
   Case scene = hanging({2, 2, 2}, {0.2, 0.3, 0.4});
   scene.bodies.push_back(free_box("post", {1, 1, 1}, {0.2, 0.2, 0.2}));

@@ -65,6 +65,10 @@ numerics:
 instruments:
   pressure_probes: [{name: P1, position: [0.1, 0.2, 0.3]}, {name: P2, position: [1, 2, 3]}]
   wave_gauges: [{name: H1, position: [0.7, 0.8]}, {name: H2, position: [0.5, 0.6, 9]}]
+  velocity_probes: [{name: V1, position: [0.4, 0.5, 0.6]}, {name: V2, position: [1, 2, 3], body: pier}]
+  sections:
+    - {name: gap, centre: [0.5, 0.4, 0.3], normal: [2, 0, 0], size: [0.6, 0.7], up: [0, 1, 0]}
+    - {name: hole, centre: [0.5, 0.4, 0.3], normal: [0, 0, 1], diameter: 0.2}
   rate: 500
   gauge_rate: 100
   wrench_rate: 250
@@ -125,6 +129,19 @@ void expect_everything(const Case& read, const std::string& mesh) {
   ASSERT_EQ(read.instruments.wave_gauges.size(), 2u);
   expect_close(read.instruments.wave_gauges[0].position, {0.7, 0.8, 0});
   expect_close(read.instruments.wave_gauges[1].position, {0.5, 0.6, 0});
+  ASSERT_EQ(read.instruments.velocity_probes.size(), 2u);
+  EXPECT_EQ(read.instruments.velocity_probes[0].name, "V1");
+  expect_close(read.instruments.velocity_probes[0].position, {0.4, 0.5, 0.6});
+  EXPECT_EQ(read.instruments.velocity_probes[1].body, "pier");
+  ASSERT_EQ(read.instruments.sections.size(), 2u);
+  const FlowSectionCase& gap = read.instruments.sections[0];
+  EXPECT_EQ(gap.name, "gap");
+  expect_close(gap.centre, {0.5, 0.4, 0.3});
+  expect_close(gap.normal, {2, 0, 0});
+  EXPECT_EQ(gap.size, (std::array<double, 2>{0.6, 0.7}));
+  expect_close(gap.up.value(), {0, 1, 0});
+  EXPECT_FALSE(gap.diameter);
+  EXPECT_EQ(read.instruments.sections[1].diameter, 0.2);
   EXPECT_DOUBLE_EQ(read.instruments.rate, 500);
   EXPECT_EQ(read.instruments.gauge_rate, 100);
   EXPECT_EQ(read.instruments.wrench_rate, 250);

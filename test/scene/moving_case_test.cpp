@@ -52,22 +52,26 @@ bodies:
     moorings:
       - {anchor: [0, 1, 2], attachment: [3, 4, 5], stiffness: 6, damping: 7, length: 8, slack: false}
       - {anchor: [0, 1, 2], attachment: [3, 4, 6], stiffness: 6}
+      - {name: bow, line: catenary, anchor: [0, 1, 2], attachment: [3, 4, 6], length: 7, weight: 20, axial_stiffness: 1e5, bed: false}
+    wind: {velocity: [8, 1, 0], area: 3, centre: [1, 0.5, 1.2], drag_coefficient: 1.1, density: 1.2, gust_intensity: 0.15, gust_time: 5, seed: 7}
+    imu: true
   - name: paddle
     box: {min: [0.1, 0.1, 0.1], max: [0.2, 0.9, 1]}
     motion: commanded
     collision: none
     command: {greatest_speed: 2, greatest_angular_speed: 3, greatest_acceleration: none, greatest_angular_acceleration: 5, timeout: 0}
-  - {name: buoy, box: {min: [0.5, 0.1, 0.1], max: [0.6, 0.9, 1]}, motion: free, mass: 3, collision: convex_hull}
-  - {name: pier, box: {min: [1.5, 0.1, 0.1], max: [1.6, 0.9, 1]}, surface_velocity: [1, 0, 0]}
+  - {name: buoy, box: {min: [0.5, 0.1, 0.1], max: [0.6, 0.9, 1]}, motion: free, mass: 3, collision: convex_hull, imu: [0.5, 0.1, 1]}
+  - {name: pier, box: {min: [1.5, 0.1, 0.1], max: [1.6, 0.9, 1]}, imu: false, surface_velocity: [1, 0, 0]}
 joints:
   - {name: a, type: fixed, child: hull}
-  - {name: b, type: hinge, parent: tank, child: hull, point: [1, 2, 3], axis: [0, 0, 2], limits: [-30, 60], stiffness: 4, damping: 5}
-  - {name: c, type: slider, parent: paddle, child: hull, axis: [1, 0, 0], limits: [-0.3, 0.6], stiffness: 6, damping: 7}
+  - {name: b, type: hinge, parent: tank, child: hull, point: [1, 2, 3], axis: [0, 0, 2], limits: [-30, 60], stiffness: 4, damping: 5,
+     command: {quantity: velocity, greatest_effort: 10, greatest_velocity: 2, timeout: 1}}
+  - {name: c, type: slider, parent: paddle, child: hull, axis: [1, 0, 0], limits: [-0.3, 0.6], stiffness: 6, damping: 7, command: {}}
   - {name: d, type: ball, parent: hull, child: buoy, point: [1, 2, 3]}
   - {name: e, type: spring, parent: hull, child: buoy, point: [1, 2, 3], parent_point: [4, 5, 6], stiffness: 7, damping: 8, length: 9}
   - {name: f, type: six_dof, child: buoy, point: [1, 2, 3],
      six_limits: {surge: [-1, 1], sway: [0, 0], heave: [0, 2], roll: [-90, 90], yaw: [0, 45]}}
-instruments: {pose_rate: 25}
+instruments: {pose_rate: 25, imu_rate: 200}
 )";
 
 void expect_close(const Vector3d& value, const Vector3d& expected) {
@@ -142,7 +146,7 @@ void expect_loads(const RigidCase& hull) {
   EXPECT_DOUBLE_EQ(force.phase, pi / 4);
   EXPECT_FALSE(hull.forces[1].point);
   EXPECT_FALSE(hull.forces[1].to);
-  ASSERT_EQ(hull.moorings.size(), 2u);
+  ASSERT_EQ(hull.moorings.size(), 3u);
   const MooringCase& mooring = hull.moorings[0];
   expect_close(mooring.anchor, {0, 1, 2});
   expect_close(mooring.attachment, {3, 4, 5});
@@ -152,6 +156,23 @@ void expect_loads(const RigidCase& hull) {
   EXPECT_FALSE(mooring.slack);
   EXPECT_FALSE(hull.moorings[1].length);
   EXPECT_TRUE(hull.moorings[1].slack);
+  EXPECT_EQ(hull.moorings[1].name, "");
+  const MooringCase& catenary = hull.moorings[2];
+  EXPECT_EQ(catenary.name, "bow");
+  EXPECT_EQ(catenary.line, MooringLine::catenary);
+  EXPECT_EQ(catenary.length, 7);
+  EXPECT_DOUBLE_EQ(catenary.weight, 20);
+  EXPECT_EQ(catenary.axial_stiffness, 1e5);
+  EXPECT_FALSE(catenary.bed);
+  ASSERT_TRUE(hull.wind);
+  expect_close(hull.wind->velocity, {8, 1, 0});
+  EXPECT_DOUBLE_EQ(hull.wind->area, 3);
+  expect_close(hull.wind->centre.value(), {1, 0.5, 1.2});
+  EXPECT_DOUBLE_EQ(hull.wind->drag_coefficient, 1.1);
+  EXPECT_DOUBLE_EQ(hull.wind->density, 1.2);
+  EXPECT_DOUBLE_EQ(hull.wind->gust_intensity, 0.15);
+  EXPECT_DOUBLE_EQ(hull.wind->gust_time, 5);
+  EXPECT_EQ(hull.wind->seed, 7);
 }
 
 void expect_bodies(const std::vector<BodyCase>& bodies) {
@@ -180,6 +201,12 @@ void expect_bodies(const std::vector<BodyCase>& bodies) {
   EXPECT_FALSE(bodies[2].rigid.density);
   EXPECT_EQ(bodies[2].rigid.collision, CollisionShape::convex_hull);
   EXPECT_EQ(bodies[3].motion, Motion::fixed);
+  ASSERT_TRUE(bodies[0].imu);
+  EXPECT_FALSE(bodies[0].imu->position);
+  EXPECT_FALSE(bodies[1].imu);
+  ASSERT_TRUE(bodies[2].imu);
+  expect_close(bodies[2].imu->position.value(), {0.5, 0.1, 1});
+  EXPECT_FALSE(bodies[3].imu);
 }
 
 void expect_joints(const std::vector<JointCase>& joints) {
@@ -195,6 +222,15 @@ void expect_joints(const std::vector<JointCase>& joints) {
   expect_limits(joints[1].limits, -pi / 6, pi / 3);
   EXPECT_DOUBLE_EQ(joints[1].stiffness, 4);
   EXPECT_DOUBLE_EQ(joints[1].damping, 5);
+  ASSERT_TRUE(joints[1].command);
+  EXPECT_EQ(joints[1].command->quantity, JointQuantity::velocity);
+  EXPECT_EQ(joints[1].command->greatest_effort, 10);
+  EXPECT_EQ(joints[1].command->greatest_velocity, 2);
+  EXPECT_DOUBLE_EQ(joints[1].command->timeout, 1);
+  ASSERT_TRUE(joints[2].command);
+  EXPECT_EQ(joints[2].command->quantity, JointQuantity::effort);
+  EXPECT_FALSE(joints[2].command->greatest_effort);
+  EXPECT_FALSE(joints[3].command);
   expect_limits(joints[2].limits, -0.3, 0.6);
   EXPECT_FALSE(joints[3].limits);
   expect_close(joints[4].parent_point.value(), {4, 5, 6});
@@ -212,6 +248,7 @@ void expect_everything(const Case& read, const std::string& folder) {
   expect_bodies(read.bodies);
   expect_joints(read.joints);
   EXPECT_EQ(read.instruments.pose_rate, 25);
+  EXPECT_EQ(read.instruments.imu_rate, 200);
 }
 
 }  // namespace

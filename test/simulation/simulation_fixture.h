@@ -35,6 +35,11 @@ inline void append(Samples& samples, Samples more) {
   add(samples.wrenches, more.wrenches);
   add(samples.energies, more.energies);
   add(samples.poses, more.poses);
+  add(samples.flows, more.flows);
+  add(samples.velocities, more.velocities);
+  add(samples.sections, more.sections);
+  add(samples.imus, more.imus);
+  add(samples.moorings, more.moorings);
 }
 
 /// Advances to `time`; the samples on the way.
@@ -62,7 +67,24 @@ inline bool same(const Samples& a, const Samples& b) {
     return p.pressure_force == q.pressure_force && p.viscous_force == q.viscous_force && p.pressure_torque == q.pressure_torque &&
            p.viscous_torque == q.viscous_torque;
   };
-  return equal(a.pressures, b.pressures, [](const auto& p, const auto& q) { return p.time == q.time && p.pressures == q.pressures; }) &&
+  const auto same_velocity = [](const Vector3d& p, const Vector3d& q) { return (p.hasNaN() && q.hasNaN()) || p == q; };
+  const auto same_flow = [](const auto& p, const auto& q) { return p.discharge == q.discharge && p.area == q.area; };
+  const auto same_reading = [](const ImuReading& p, const ImuReading& q) {
+    return p.orientation.coeffs() == q.orientation.coeffs() && p.angular_velocity == q.angular_velocity &&
+           p.specific_force == q.specific_force;
+  };
+  const auto same_mooring = [](const MooringState& p, const MooringState& q) {
+    return p.tension == q.tension && p.anchor_tension == q.anchor_tension && p.lying == q.lying && p.line == q.line;
+  };
+  return equal(a.velocities, b.velocities,
+               [&](const auto& p, const auto& q) { return p.time == q.time && equal(p.velocities, q.velocities, same_velocity); }) &&
+         equal(a.sections, b.sections,
+               [&](const auto& p, const auto& q) { return p.time == q.time && equal(p.flows, q.flows, same_flow); }) &&
+         equal(a.imus, b.imus,
+               [&](const auto& p, const auto& q) { return p.time == q.time && equal(p.readings, q.readings, same_reading); }) &&
+         equal(a.moorings, b.moorings,
+               [&](const auto& p, const auto& q) { return p.time == q.time && equal(p.moorings, q.moorings, same_mooring); }) &&
+         equal(a.pressures, b.pressures, [](const auto& p, const auto& q) { return p.time == q.time && p.pressures == q.pressures; }) &&
          equal(a.levels, b.levels, [](const auto& p, const auto& q) { return p.time == q.time && p.levels == q.levels; }) &&
          equal(a.wrenches, b.wrenches,
                [&](const auto& p, const auto& q) { return p.time == q.time && equal(p.wrenches, q.wrenches, same_wrench); }) &&

@@ -41,6 +41,14 @@ struct FacetPiece {
   Facet shape;
 };
 
+/// A section through the water, cut into cells of about a spacing, of those that water can come to.
+struct FlowSection {
+  Vector3d normal = Vector3d::UnitX();  ///< unit, the way that counts as positive
+  std::vector<Vector3d> outline;        ///< m, corners, of a disc on its rim; in 2-D the lower and the upper end
+  std::vector<Vector3d> places;         ///< m, middles of the cells
+  std::vector<double> areas;            ///< m² (2-D: m), of each
+};
+
 /// A case's geometry, sampled at the particle spacing: what the solver starts from.
 struct Layout {
   double spacing = 0;                ///< m
@@ -59,6 +67,7 @@ struct Layout {
   /// Owners of which the first one's walls may lie inside the second as they move against each other: both ways round.
   std::vector<std::pair<int, int>> intruding;
   std::vector<Vector3d> disc_normals;  ///< unit, of each pressure probe's wall where it has a disc, else zero
+  std::vector<FlowSection> sections;   ///< as the case has them
   std::vector<Opening> openings;       ///< as the case has them; the water beyond them comes last among the particles
   std::size_t beyond = 0;              ///< how many particles that is
   std::vector<FacetPiece> pieces;      ///< of those facets that may lie partly in such a body: all of each, ascending
@@ -71,7 +80,8 @@ struct Layout {
 /// that the box covers partly are clipped at its sides. A body that moves has the outside of itself and
 /// what is fixed to it, and hides nothing of other walls; where it may move into another body the facets of both have pieces, see
 /// `intruding`. Throws Error for every mesh fault, for fluid outside the tank or leaking from it, for an empty fill, a spacing larger than
-/// the tank, a body of a mesh ten times as large as it, a probe in a body or outside the tank, and openings that do not lie in a wall or
+/// the tank, a body of a mesh ten times as large as it, a probe in a body or outside the tank, a section that no water
+/// can come to, and openings that do not lie in a wall or
 /// whose pockets meet what is there. Meshes of doubtful size are named. In `walls`, `facets` and `triangles` openings are holes with a
 /// pocket behind each; `meshes` are whole.
 Layout lay_out(const Case& checked, const ResourceResolver& resolve = {});

@@ -62,14 +62,53 @@ struct FlowSample {
   std::vector<FlowAtOpening> flows;  ///< in the case's order of openings
 };
 
+struct VelocitySample {
+  double time = 0;  ///< s
+  /// m/s, relative to the tank and in its axes, in the case's order of velocity probes; no numbers where it is dry.
+  std::vector<Vector3d> velocities;
+};
+
+struct FlowThroughSection {
+  double discharge = 0;  ///< m³/s (2-D: m²/s), along the section's normal
+  double area = 0;       ///< m² (2-D: m), of it that is wet
+};
+
+struct SectionSample {
+  double time = 0;                        ///< s
+  std::vector<FlowThroughSection> flows;  ///< in the case's order of sections
+};
+
+/// Of an inertial measurement unit: its axes are the body's.
+struct ImuReading {
+  Quaterniond orientation = Quaterniond::Identity();  ///< in the world
+  Vector3d angular_velocity = Vector3d::Zero();       ///< rad/s, in its own axes
+  /// m/s², acceleration less gravity, in its own axes: the mean since the sample before, as of a sensor that no vibration deceives; of the
+  /// first sample that of its instant.
+  Vector3d specific_force = Vector3d::Zero();
+};
+
+struct ImuSample {
+  double time = 0;                   ///< s
+  std::vector<ImuReading> readings;  ///< of the bodies that have one, in the case's order
+};
+
+struct MooringSample {
+  double time = 0;                     ///< s
+  std::vector<MooringState> moorings;  ///< of the tank and then of the bodies, in the case's order
+};
+
 /// What the instruments recorded since it was last taken; each list in order of time, every sample exactly once.
 struct Samples {
   std::vector<PressureSample> pressures;
   std::vector<LevelSample> levels;
   std::vector<WrenchSample> wrenches;
   std::vector<EnergySample> energies;
-  std::vector<PoseSample> poses;  ///< only where something moves
-  std::vector<FlowSample> flows;  ///< only of cases with openings
+  std::vector<PoseSample> poses;           ///< only where something moves
+  std::vector<FlowSample> flows;           ///< only of cases with openings
+  std::vector<VelocitySample> velocities;  ///< only of cases with velocity probes
+  std::vector<SectionSample> sections;     ///< only of cases with sections
+  std::vector<ImuSample> imus;             ///< only of cases with inertial measurement units
+  std::vector<MooringSample> moorings;     ///< only of cases with moorings
 };
 
 }  // namespace wavetank

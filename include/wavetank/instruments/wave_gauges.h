@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wavetank/geometry/layout.h"
+#include "wavetank/instruments/solid_bodies.h"
 #include "wavetank/rigid/rigid_world.h"
 #include "wavetank/sph/solver.h"
 
@@ -28,22 +29,13 @@ class WaveGauges {
     std::vector<double> shelves;     ///< heights of the tank's floors above that, upwards, m
     std::size_t begin = 0, end = 0;  ///< its points
   };
-  struct Solid {  ///< a body that moves, as the case's geometry has it
-    std::size_t owner;
-    TriangleMesh mesh;
-    bool is_box;
-    Box box;  ///< about it, and in 2-D without ends along y
-  };
-  bool contains(const Solid& solid, const Vector3d& point) const;
-  std::vector<char> open_now() const;
-
   const RigidWorld& world_;
   double interval_ = 0;  ///< m between points
   Top top_;
   std::vector<Line> lines_;
   std::vector<Vector3d> places_;
   std::vector<char> open_;  ///< of each point: not inside a fixed body
-  std::vector<Solid> moving_;
+  std::vector<SolidBody> moving_;
   std::unique_ptr<PointSet> points_;
 };
 

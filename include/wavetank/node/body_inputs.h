@@ -9,8 +9,8 @@
 
 namespace wavetank {
 
-/// Listens for wrenches on free bodies, velocities of commanded ones, the tank included, and discharges of commanded openings, and hands
-/// them to the simulation.
+/// Listens for wrenches on free bodies, velocities of commanded ones, the tank included, discharges of commanded openings, and efforts or
+/// velocities of commanded joints, and hands them to the simulation.
 class BodyInputs {
  public:
   /// wrench_timeout: s of simulated time for which a wrench is held; 0 = until it is replaced.

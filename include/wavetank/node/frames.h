@@ -20,8 +20,8 @@ struct BodyFrame {
 /// 0 the tank, 1 + i body i. `references`: of each, m, as the case's geometry has it.
 std::vector<BodyFrame> body_frames(const Case& checked, const std::vector<Vector3d>& references);
 
-/// Of the body that a probe is fixed to, as body_frames counts them; 0 for the tank.
-std::size_t owner_of(const Case& checked, const PressureProbeCase& probe);
+/// Of the body that a probe is fixed to, by its name, as body_frames counts them; 0 for the tank.
+std::size_t owner_of(const Case& checked, const std::string& body);
 
 /// Reference points of the tank and the bodies, for body_frames.
 std::vector<Vector3d> reference_points(const RigidWorld& bodies);

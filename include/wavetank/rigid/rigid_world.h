@@ -31,6 +31,14 @@ struct JointState {
   double effort = 0;    ///< N or N·m, of its spring and damper on the child along the position; of a spring negative where it pulls
 };
 
+/// A mooring as it is.
+struct MooringState {
+  double tension = 0;          ///< N (2-D: N/m), at its attachment; of a spring that pushes negative
+  double anchor_tension = 0;   ///< likewise, at its anchor
+  double lying = 0;            ///< m of a catenary that lie on its bed
+  std::vector<Vector3d> line;  ///< m, places on it from the anchor on, in the tank's coordinates; as many in every state
+};
+
 /// The tank (0) and the bodies (1 + i) as rigid bodies, in the world's inertial axes, which are the case's coordinates at t = 0. Bullet
 /// finds contacts between bodies and solves for the impulses of contacts and joints. A step depends on nothing but what save() returns:
 /// contacts are found anew in every step, and solved without a warm start, so that a restored run goes on bit for bit. A fixed body is part
@@ -72,6 +80,12 @@ class RigidWorld {
   void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
   /// Throws Error for a body that is not commanded, or a value that is not finite. In the body's axes.
   void command(std::size_t owner, double time, const Vector3d& velocity, const Vector3d& angular_velocity);
+
+  /// Of an effort (N or N·m) or a velocity (m/s or rad/s) of a joint that is commanded. Throws Error for one that is not, or a value that
+  /// is not finite.
+  void command_joint(std::size_t joint, double time, double value);
+  /// At present, of the tank and then of the bodies, in the case's order.
+  std::vector<MooringState> moorings() const;
 
   std::size_t joint_count() const;
   JointState joint_state(std::size_t joint) const;

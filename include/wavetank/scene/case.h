@@ -187,14 +187,36 @@ struct ForceCase {
   double phase = 0;                    ///< rad
 };
 
-/// A line between a point of the world and one of a free body: a linear spring with a damper along it.
+enum class MooringLine {
+  spring,   ///< linear, with a damper along it
+  catenary  ///< hangs by its weight, in rest at every instant
+};
+
+/// A line between a point of the world and one of a free body.
 struct MooringCase {
+  std::string name;                        ///< of its topic; empty = its place in the list, from 0
+  MooringLine line = MooringLine::spring;  ///< what the line is
   Vector3d anchor = Vector3d::Zero();      ///< m, in the tank's coordinates; moves with the tank
   Vector3d attachment = Vector3d::Zero();  ///< m, of the body as given
-  double stiffness = 0;                    ///< N/m (2-D: N/m²)
-  double damping = 0;                      ///< N·s/m
-  std::optional<double> length;            ///< m, unstretched; none = the distance at the start
-  bool slack = true;                       ///< pulls only, as a rope; else pushes too
+  double stiffness = 0;                    ///< N/m (2-D: N/m²), of a spring
+  double damping = 0;                      ///< N·s/m, of a spring
+  std::optional<double> length;            ///< m, unstretched; none = the distance at the start; a catenary has one
+  bool slack = true;                       ///< a spring pulls only, as a rope; else pushes too
+  double weight = 0;                       ///< N/m (2-D: N/m²) of a catenary's length, in the water
+  std::optional<double> axial_stiffness;   ///< N (2-D: N/m), EA of a catenary; none = it does not stretch
+  bool bed = true;                         ///< a catenary lies, without friction, on a level bed at its anchor; else hangs below that too
+};
+
+/// Drag of the wind on what of a free body is over the water, ½ ρ C A |U − u| (U − u).
+struct WindCase {
+  Vector3d velocity = Vector3d::Zero();  ///< m/s, the mean
+  double area = 0;                       ///< m² (2-D: m), that the wind meets
+  std::optional<Vector3d> centre;        ///< m, of that area, of the body as given; none = centre of mass
+  double drag_coefficient = 1;           ///< C
+  double density = 1.225;                ///< kg/m³, of the air
+  double gust_intensity = 0;             ///< standard deviation of the speed over its mean
+  double gust_time = 10;                 ///< s, integral time scale of the gusts
+  int seed = 1;                          ///< of the gusts
 };
 
 /// What stands for a body in contacts.
@@ -224,6 +246,7 @@ struct RigidCase {
   CommandCase command;
   std::vector<ForceCase> forces;
   std::vector<MooringCase> moorings;
+  std::optional<WindCase> wind;
 };
 
 /// What holds the water back along a wall.
@@ -255,6 +278,11 @@ struct TankCase {
   RigidCase rigid;
 };
 
+/// An inertial measurement unit of a body.
+struct ImuCase {
+  std::optional<Vector3d> position;  ///< m, of the body as given; none = centre of mass
+};
+
 struct BodyCase {
   std::string name;
   std::variant<Box, MeshSource> shape;
@@ -262,6 +290,7 @@ struct BodyCase {
   Vector3d surface_velocity = Vector3d::Zero();  ///< m/s, of a belt: its surface runs while the body stands
   SkinFrictionCase skin_friction;
   RigidCase rigid;
+  std::optional<ImuCase> imu;
 };
 
 enum class JointType {
@@ -271,6 +300,16 @@ enum class JointType {
   ball,
   spring,  ///< a spring and a damper along the line between the two points
   six_dof  ///< limits along and about x, y, z
+};
+
+enum class JointQuantity { effort, velocity };
+
+/// Of a hinge or a slider whose effort or velocity is commanded while it runs.
+struct JointCommandCase {
+  JointQuantity quantity = JointQuantity::effort;  ///< of the command
+  std::optional<double> greatest_effort;           ///< N or N·m (2-D: a metre of width); none = no limit
+  std::optional<double> greatest_velocity;         ///< m/s or rad/s, of commanded velocities
+  double timeout = 0.5;  ///< s of simulated time without a command, after which an effort ends and a velocity brakes to 0; 0 = never
 };
 
 /// Between two bodies, or a body and the tank or the world.
@@ -288,6 +327,7 @@ struct JointCase {
   double stiffness = 0;          ///< N/m, N·m/rad about a hinge: towards the start
   double damping = 0;            ///< N·s/m, N·m·s/rad
   std::optional<double> length;  ///< m, of a spring unstretched; none = the distance at the start
+  std::optional<JointCommandCase> command;
 };
 
 /// A robot described in URDF, which reading a case turns into bodies and joints: a case that has been read has none of these.
@@ -412,15 +452,34 @@ struct WaveGaugeCase {
   Vector3d position = Vector3d::Zero();  ///< m; a point of the line: along z, or the axis nearest to gravity, it is not used
 };
 
+struct VelocityProbeCase {
+  std::string name;
+  Vector3d position = Vector3d::Zero();  ///< m, at the start
+  std::string body;                      ///< that it is fixed to; empty = the tank
+};
+
+/// A plane rectangle or disc in the water, through which the discharge is measured.
+struct FlowSectionCase {
+  std::string name;
+  Vector3d centre = Vector3d::Zero();         ///< m
+  Vector3d normal = Vector3d::Zero();         ///< the way that counts as positive; any length but 0
+  std::optional<std::array<double, 2>> size;  ///< m, width and height of a rectangle; the width is not used in 2-D
+  std::optional<Vector3d> up;                 ///< direction of the height; none = against gravity, or else along x
+  std::optional<double> diameter;             ///< m, of a disc; exactly one of size and diameter is given
+};
+
 struct InstrumentsCase {
   std::vector<PressureProbeCase> pressure_probes;
   std::vector<WaveGaugeCase> wave_gauges;
+  std::vector<VelocityProbeCase> velocity_probes;
+  std::vector<FlowSectionCase> sections;
   double rate = 1000.0;               ///< Hz of simulated time, of every instrument that has no rate of its own
   std::optional<double> gauge_rate;   ///< Hz
   std::optional<double> wrench_rate;  ///< Hz
   std::optional<double> energy_rate;  ///< Hz
-  std::optional<double> flow_rate;    ///< Hz, of discharges at openings
-  std::optional<double> pose_rate;    ///< Hz, of moving bodies' poses and joints; none = 100, or `rate` where that is less
+  std::optional<double> flow_rate;    ///< Hz, of discharges at openings and through sections
+  std::optional<double> pose_rate;    ///< Hz, of moving bodies' poses, joints and moorings; none = 100, or `rate` where that is less
+  std::optional<double> imu_rate;     ///< Hz, of inertial measurement units; none = that of poses
 };
 
 /// How the node publishes; the solver does not know of it.

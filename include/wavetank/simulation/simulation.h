@@ -117,6 +117,9 @@ class Simulation {
   /// Of a commanded opening, m³/s (2-D: m²/s), from the next step on. Throws Error for an opening that is not commanded, and for a value
   /// that is not finite, negative, or faster than a tenth of the speed of sound.
   void command_discharge(std::size_t opening, double discharge);
+  /// Of a joint that is commanded, N, N·m, m/s or rad/s, from the next step on. Throws Error for one that is not, and for a value that is
+  /// not finite.
+  void command_joint(std::size_t joint, double value);
   const std::vector<OpeningState>& openings() const;  ///< in the case's order
   const RigidWorld& bodies() const;
 

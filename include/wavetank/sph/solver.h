@@ -65,7 +65,13 @@ struct PointValue {
   double pressure = 0;                                 ///< Pa, gauge; 0 where dry
   double filling = 0;                                  ///< Σ W V: 1 inside the fluid, 1/2 on its free surface
   double shepard = 0;                                  ///< γ at the point
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, the mean of the water about the point; 0 where dry
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, the mean of the water about the point, Σ W V u / Σ W V; 0 where dry
+};
+
+/// What is wanted of the fluid at points.
+enum class PointValues {
+  pressure,  ///< all but the velocity, which is 0 unless the case has openings
+  velocity   ///< all
 };
 
 /// Points kept on the device, made by the solver that evaluates them.
@@ -239,7 +245,8 @@ class Solver {
   virtual void set_zones(const std::vector<ImposedZone>& zones) = 0;
   /// The thinnest wall with fluid on both sides that is thinner than the support, if there is one: taken for a thin plate.
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
-  virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points) const = 0;
+  virtual std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points,
+                                                PointValues wanted = PointValues::pressure) const = 0;
   virtual std::vector<PointValue> evaluate(const PointSet& points) = 0;
   /// One wrench an owner (0 the tank, 1 + i body i) about its centre, in the tank's axes.
   virtual std::vector<WallWrench> wrenches() = 0;

@@ -184,9 +184,11 @@ void Runs::run_openings() {
 
 /// All that a solver can be asked.
 void Runs::read(Solver& solver) {
-  const auto points = solver.make_points({Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.35, 0.25, 0.3), Vector3d(0.3, 0.1, 0.25)});
-  for (const PointValue& value : solver.evaluate(*points))
-    found_.not_finite += not_finite_of({value.pressure, value.filling, value.shepard});
+  const std::vector<Vector3d> places{Vector3d(0, 0, 0), Vector3d(0.1, 0.1, 0.1), Vector3d(0.35, 0.25, 0.3), Vector3d(0.3, 0.1, 0.25)};
+  for (const PointValues wanted : {PointValues::pressure, PointValues::velocity})
+    for (const PointValue& value : solver.evaluate(*solver.make_points(places, wanted)))
+      found_.not_finite +=
+          not_finite_of({value.pressure, value.filling, value.shepard, value.velocity.x(), value.velocity.y(), value.velocity.z()});
   for (const WallWrench& wrench : solver.wrenches())
     for (const Vector3d& part : wrench) found_.not_finite += not_finite_of({part.x(), part.y(), part.z()});
   const FluidEnergies energies = solver.energies();

@@ -86,15 +86,25 @@ ODOMETRY = (
     + [("twist.twist.linear." + axis, "velocity_" + axis, "m/s") for axis in AXES]
     + [("twist.twist.angular." + axis, "angular_velocity_" + axis, "rad/s") for axis in AXES]
 )
+IMU = (
+    [("orientation." + axis, "orientation_" + axis, "") for axis in AXES + ("w",)]
+    + [("angular_velocity." + axis, "angular_velocity_" + axis, "rad/s") for axis in AXES]
+    + [("linear_acceleration." + axis, "specific_force_" + axis, "m/s^2") for axis in AXES]
+)
+TENSION = [("tension", "tension", "N"), ("anchor_tension", "anchor_tension", "N"), ("lying", "lying", "m")]
 
 # Which topics of a tank are instruments: by type, the place under its namespace (* is a name) and what makes columns of it.
 INSTRUMENTS = [
     ("wavetank/ProbeArray", "probes", listed("pressures", "Pa")),
     ("wavetank/WaveGaugeArray", "gauges", listed("levels", "m")),
+    ("geometry_msgs/Vector3Stamped", "velocities/*", plain([("vector." + axis, "velocity_" + axis, "m/s") for axis in AXES])),
+    ("wavetank/SectionFlow", "sections/*", plain([("discharge", "discharge", "m^3/s"), ("area", "area", "m^2")])),
     ("nav_msgs/Odometry", "bodies/*/odom", plain(ODOMETRY)),
     ("geometry_msgs/WrenchStamped", "bodies/*/wrench", plain(WRENCH)),
     ("geometry_msgs/WrenchStamped", "bodies/*/wrench/pressure", plain(WRENCH)),
     ("geometry_msgs/WrenchStamped", "bodies/*/wrench/viscous", plain(WRENCH)),
+    ("sensor_msgs/Imu", "bodies/*/imu", plain(IMU)),
+    ("wavetank/MooringTension", "bodies/*/moorings/*/tension", plain(TENSION)),
     ("wavetank/OpeningFlow", "openings/*/flow", plain([("discharge", "discharge", "m^3/s"), ("volume", "volume", "m^3")])),
     ("sensor_msgs/JointState", "joint_states", joint_columns),
     ("wavetank/SolverStatus", "status", status_columns),

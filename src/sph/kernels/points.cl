@@ -1,4 +1,5 @@
-// The fluid at given points, in it or on a wall: the pressure of a probe, and how full the kernel is there (for gauges and the free surface).
+// The fluid at given points, in it or on a wall: the pressure of a probe, how full the kernel is there (for gauges and the free surface), and with
+// VELOCITIES its velocity.
 #include "walls.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -16,7 +17,7 @@ typedef struct {
   neighbours_t near;
   vector_t gravity;  // as a point that rests in the tank feels it
   tile weight, pressure;
-#if OPENINGS
+#if VELOCITIES
   tile u, v, w;  // Σ W V u
 #endif
 } sweep_t;
@@ -34,7 +35,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
   a->weight += weight;
   a->pressure += weight * (neighbour_pressure(&a->near, p, j, rx, ry, rz) - density * head);
-#if OPENINGS
+#if VELOCITIES
   const tile_vector_t velocity = neighbour_velocity(&a->near, j);
   a->u += weight * velocity.x;
   a->v += weight * velocity.y;
@@ -75,7 +76,7 @@ INLINE real find_shepard(__constant const parameters_t* p, const walls_t* walls,
 }
 
 #if TILE_OWN == 1
-// points: x, y, z fields; results: pressure (Pa; 0 in the air), Σ W V, γ, and where there are openings the mean velocity. Points need not lie together: tiles of one.
+// points: x, y, z fields; results: pressure (Pa; 0 in the air), Σ W V, γ, and with VELOCITIES the mean velocity. Points need not lie together: tiles of one.
 __kernel void points(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                      WALL_ARGUMENTS, __global const real* images, __global const real* points, __global real* results) {
   const int i = get_global_id(0);
@@ -96,7 +97,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   results[i] = pressure / fmax(weight, LEAST_FILLING * bounded_shepard(shepard));
   results[count + i] = weight;
   results[2 * count + i] = shepard;
-#if OPENINGS
+#if VELOCITIES
   real u, v, w;
   own_sums(a.u, &u);
   own_sums(a.v, &v);

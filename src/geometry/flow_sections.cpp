@@ -1,0 +1,100 @@
+#include "flow_sections.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "opening_parts.h"
+#include "polygon.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+const double pi = std::acos(-1.0);
+constexpr int rim_corners = 24;  // of a disc's outline, which is for drawing
+
+int cells_along(double length, double spacing) { return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9))); }
+
+/// A cell of the section, before it is known whether water can come to it.
+struct Cell {
+  Vector3d place;
+  double area;
+};
+
+std::vector<Cell> cut_rectangle(const Opening& plane, double width, double height, int dimensions, double spacing) {
+  const int rows = cells_along(height, spacing), columns = dimensions == 2 ? 1 : cells_along(width, spacing);
+  const double up = height / rows, across = dimensions == 2 ? 0 : width / columns;
+  std::vector<Cell> cells;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      cells.push_back({plane.centre + (up * (row + 0.5) - 0.5 * height) * plane.up +
+                           (dimensions == 2 ? 0 : across * (column + 0.5) - 0.5 * width) * plane.across,
+                       dimensions == 2 ? up : up * across});
+  return cells;
+}
+
+/// Rings of equal breadth, each cut into equal parts about as long.
+std::vector<Cell> cut_disc(const Opening& plane, double diameter, double spacing) {
+  const int rings = cells_along(0.5 * diameter, spacing);
+  const double breadth = 0.5 * diameter / rings;
+  std::vector<Cell> cells;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double radius = (ring + 0.5) * breadth;
+    const int parts = std::max(4, cells_along(2 * pi * radius, spacing));
+    for (int k = 0; k < parts; ++k) {
+      const double angle = 2 * pi * (k + 0.5) / parts;
+      cells.push_back(
+          {plane.centre + radius * (std::cos(angle) * plane.across + std::sin(angle) * plane.up), 2 * pi * radius * breadth / parts});
+    }
+  }
+  return cells;
+}
+
+std::vector<Vector3d> outline_of(const FlowSectionCase& given, const Opening& plane, int dimensions) {
+  std::vector<Vector3d> outline;
+  if (given.diameter) {
+    for (int k = 0; k < rim_corners; ++k) {
+      const double angle = 2 * pi * k / rim_corners;
+      outline.push_back(plane.centre + 0.5 * *given.diameter * (std::cos(angle) * plane.across + std::sin(angle) * plane.up));
+    }
+    return outline;
+  }
+  const Vector3d up = 0.5 * (*given.size)[1] * plane.up, across = 0.5 * (*given.size)[0] * plane.across;
+  if (dimensions == 2) return {plane.centre - up, plane.centre + up};
+  for (const auto& [right, top] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+    outline.push_back(plane.centre + right * across + top * up);
+  return outline;
+}
+
+FlowSection place_section(const FlowSectionCase& given, const Basin& basin, const OpenSpace& open, double spacing) {
+  Opening plane;  // of which the axes are those that an opening's would be
+  plane.centre = given.centre;
+  plane.normal = given.normal.normalized();
+  set_axes(given.up, basin.up, basin.dimensions, plane);
+  FlowSection section;
+  section.normal = plane.normal;
+  section.outline = outline_of(given, plane, basin.dimensions);
+  const std::vector<Cell> cells = given.diameter ? cut_disc(plane, *given.diameter, spacing)
+                                                 : cut_rectangle(plane, (*given.size)[0], (*given.size)[1], basin.dimensions, spacing);
+  for (const Cell& cell : cells) {
+    if (!open.reached(cell.place, cell.place)) continue;
+    section.places.push_back(cell.place);
+    section.areas.push_back(cell.area);
+  }
+  if (section.places.empty())
+    throw Error("section '" + given.name + "' at " + describe(given.centre) +
+                " m lies where no water can come; move it into the space that the water can reach");
+  return section;
+}
+
+}  // namespace
+
+std::vector<FlowSection> place_sections(const std::vector<FlowSectionCase>& sections, const Basin& basin, const OpenSpace& open,
+                                        double spacing) {
+  std::vector<FlowSection> placed;
+  for (const FlowSectionCase& section : sections) placed.push_back(place_section(section, basin, open, spacing));
+  return placed;
+}
+
+}  // namespace wavetank

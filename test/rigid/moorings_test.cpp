@@ -1,0 +1,237 @@
+// Catenaries against their formulas, what moorings say of themselves, and the wind.
+#include <random>
+
+#include "../../src/rigid/catenary.h"
+#include "../../src/rigid/wind.h"
+#include "rigid_fixture.h"
+
+namespace wavetank {
+namespace {
+
+// ---- catenary
+
+TEST(Catenary, BetweenEndsOfOneHeightHasTheFormulasPull) {
+  // Hung freely from two ends 2 a sinh⁻¹… apart: L = 2 a sinh(D/2a) with a = H/w, and half the weight at either end.
+  const double a = 3, span = 8, weight = 20;
+  Catenary line{2 * a * std::sinh(0.5 * span / a), weight, 0, false};
+  const std::optional<CatenaryPull> pull = catenary_pull(line, span, 0);
+  ASSERT_TRUE(pull);
+  EXPECT_NEAR(pull->horizontal, a * weight, 1e-9 * a * weight);
+  EXPECT_NEAR(pull->vertical, 0.5 * weight * line.length, 1e-9 * weight * line.length);
+  EXPECT_NEAR(pull->anchor_vertical, -0.5 * weight * line.length, 1e-9 * weight * line.length);
+  EXPECT_NEAR(pull->tension(), pull->anchor_tension(), 1e-9 * pull->tension());
+  EXPECT_EQ(pull->lying, 0);
+}
+
+TEST(Catenary, ThatLiesOnItsBedHasTheFormulasPull) {
+  // From where it leaves the bed it is z = a (cosh(x/a) − 1) of the length s = a sinh(x/a), with a = H/w.
+  const double a = 2, hung = 3, weight = 50, lying = 7;
+  Catenary line{lying + a * std::sinh(hung / a), weight, 0, true};
+  const double rise = a * (std::cosh(hung / a) - 1);
+  const std::optional<CatenaryPull> pull = catenary_pull(line, lying + hung, rise);
+  ASSERT_TRUE(pull);
+  EXPECT_NEAR(pull->horizontal, a * weight, 1e-9 * a * weight);
+  EXPECT_NEAR(pull->lying, lying, 1e-9);
+  EXPECT_EQ(pull->anchor_vertical, 0);
+  EXPECT_NEAR(pull->tension() - pull->anchor_tension(), weight * rise, 1e-8 * weight * rise) << "the tension grows by w z";
+  const std::vector<Eigen::Vector2d> shape = catenary_shape(line, lying + hung, rise, *pull, 401);
+  double length = 0;
+  for (std::size_t k = 1; k < shape.size(); ++k) length += (shape[k] - shape[k - 1]).norm();
+  EXPECT_NEAR(length, line.length, 1e-4 * line.length);
+  EXPECT_LT((shape.front() - Eigen::Vector2d(0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(shape[200].y(), 0, 1e-9) << "the middle of the line lies";
+}
+
+TEST(Catenary, ThatIsTautIsASpringOfItsStiffness) {
+  const double length = 10, stiffness = 1e6, stretch = 1e-3;
+  Catenary line{length, 1e-3, 1 / stiffness, false};
+  const double distance = length * (1 + stretch);
+  const std::optional<CatenaryPull> pull = catenary_pull(line, 0.6 * distance, 0.8 * distance);
+  ASSERT_TRUE(pull);
+  EXPECT_NEAR(pull->tension(), stiffness * stretch, 1e-2) << "of 1000 N, beside a weight of 0.01 N";
+  EXPECT_NEAR(pull->horizontal / pull->vertical, 0.75, 1e-5);
+}
+
+TEST(Catenary, ThatHangsSlackPullsStraightDown) {
+  Catenary line{10, 30, 0, true};
+  const std::optional<CatenaryPull> pull = catenary_pull(line, 5, 4);  // 4 m hang, 6 m lie on 5 m
+  ASSERT_TRUE(pull);
+  EXPECT_EQ(pull->horizontal, 0);
+  EXPECT_NEAR(pull->vertical, 120, 1e-6);
+  EXPECT_NEAR(pull->lying, 6, 1e-6);
+  for (const Eigen::Vector2d& place : catenary_shape(line, 5, 4, *pull, 25)) {
+    EXPECT_GE(place.x(), 0);
+    EXPECT_LE(place.x(), 5 + 1e-9);
+    EXPECT_LE(place.y(), 4 + 1e-9);
+  }
+}
+
+TEST(Catenary, ThatIsTooShortAndDoesNotStretchHasNoPull) {
+  EXPECT_FALSE(catenary_pull({10, 30, 0, true}, 8, 6));
+  EXPECT_TRUE(catenary_pull({10, 30, 1e-5, true}, 8, 6));
+}
+
+// From slack to taut, by whatever place: the pull solves both equations, and grows with the span.
+TEST(Catenary, SolvesItsEquationsEverywhere) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Catenary line{1 + 20 * part(generator), 1 + 100 * part(generator), part(generator) < 0.5 ? 0 : 1e-3 * part(generator),
+                  part(generator) < 0.5};
+    const double rise = (line.bed ? 1 : 2 * part(generator) - 1) * part(generator) * 0.99 * line.length;
+    double reach = std::sqrt(line.length * line.length - rise * rise);
+    if (line.compliance > 0) reach *= 1.05;
+    const double span = 0.999 * reach * part(generator);
+    const std::optional<CatenaryPull> pull = catenary_pull(line, span, rise);
+    ASSERT_TRUE(pull) << trial;
+    EXPECT_NEAR(pull->vertical - pull->anchor_vertical, line.weight * (line.length - pull->lying), 1e-9 * line.weight * line.length);
+    const auto farther = catenary_pull(line, span + 1e-3 * (reach - span), rise);
+    ASSERT_TRUE(farther);
+    EXPECT_GE(farther->horizontal, pull->horizontal * (1 - 1e-9)) << trial;
+    if (pull->horizontal == 0) continue;
+    const std::vector<Eigen::Vector2d> shape = catenary_shape(line, span, rise, *pull, 2001);
+    // its last place is put at the top; what the equations have there is on the way on from the two before
+    const Eigen::Vector2d end = 2 * shape[1999] - shape[1998];
+    EXPECT_LT((end - Eigen::Vector2d(span, rise)).norm(), 2e-3 * line.length) << trial;
+  }
+}
+
+// ---- moorings of a body
+
+Case moored(const MooringCase& line) {
+  Case scene = dry_case({12, 4, 8}, 0.5);
+  scene.bodies = {free_box("buoy", {6, 2, 6}, {0.4, 0.4, 0.4})};
+  scene.bodies[0].rigid.collision = CollisionShape::none;
+  scene.bodies[0].rigid.moorings = {line};
+  return scene;
+}
+
+TEST(Moorings, ASpringTellsItsTensionAndItsEnds) {
+  MooringCase line;
+  line.anchor = {6, 2, 2};
+  line.attachment = {6, 2, 5.8};
+  line.stiffness = 1000;
+  line.length = 3.5;
+  Trial run(moored(line), 1e-3);
+  const std::vector<MooringState> moorings = run.world.moorings();
+  ASSERT_EQ(moorings.size(), 1U);
+  EXPECT_NEAR(moorings[0].tension, 300, 1e-9);
+  EXPECT_NEAR(moorings[0].anchor_tension, 300, 1e-9);
+  ASSERT_EQ(moorings[0].line.size(), 2U);
+  EXPECT_LT((moorings[0].line[0] - line.anchor).norm(), 1e-12);
+  EXPECT_LT((moorings[0].line[1] - line.attachment).norm(), 1e-12);
+}
+
+// A buoy on a heavy line, lifted by more than its weight: where it comes to rest, lift, weight and line are in balance.
+TEST(Moorings, ACatenaryHoldsABuoyWhereItsPullBalances) {
+  MooringCase line;
+  line.line = MooringLine::catenary;
+  line.anchor = {3, 2, 2};
+  line.attachment = {6, 2, 6};
+  line.length = 5.2;
+  line.weight = 30;
+  line.axial_stiffness = 1e5;
+  Case scene = moored(line);
+  scene.bodies[0].rigid.centre_of_mass = Vector3d(6, 2, 6);
+  Trial run(scene, 1e-3);
+  const double mass = run.world.properties(1).mass;
+  const Vector3d lift(60, 0, mass * gravity + 150);
+  run.load = [&] {
+    std::vector<RigidLoad> loads(2);
+    loads[1].force = lift - 60 * run.world.state(1).velocity;
+    loads[1].torque = -20 * run.world.state(1).angular_velocity;
+    return loads;
+  };
+  run.until(20);
+  EXPECT_LT(run.world.state(1).velocity.norm(), 1e-4) << "not yet at rest";
+  const MooringState mooring = run.world.moorings().at(0);
+  EXPECT_NEAR(mooring.tension, std::hypot(60.0, 150.0), 0.01);
+  EXPECT_NEAR(mooring.anchor_tension, std::hypot(60.0, 150 - 30 * (5.2 - mooring.lying)), 0.01);
+  EXPECT_NEAR(mooring.lying, 5.2 - 150 / 30.0, 1e-3) << "so much hangs as it is lifted by";
+  for (const Vector3d& place : mooring.line) EXPECT_NEAR(place.y(), 2, 1e-9);
+  EXPECT_LT((mooring.line.front() - line.anchor).norm(), 1e-9);
+  EXPECT_LT((mooring.line.back() - run.world.state(1).position).norm(), 1e-9);
+}
+
+TEST(Moorings, AStiffCatenaryIsStable) {
+  MooringCase line;
+  line.line = MooringLine::catenary;
+  line.anchor = {6, 2, 2};
+  line.attachment = {6, 2, 6};
+  line.length = 4;
+  line.weight = 1;
+  line.axial_stiffness = 1e9;
+  Case scene = moored(line);
+  scene.gravity = {0, 0, -gravity};
+  Trial run(scene, 1e-3);
+  const double mass = run.world.properties(1).mass;
+  run.load = [&] {
+    std::vector<RigidLoad> loads(2);
+    loads[1].force = Vector3d(0, 0, 2 * mass * gravity) - 50 * run.world.state(1).velocity;
+    return loads;
+  };
+  run.until(2);
+  EXPECT_NEAR(run.world.state(1).position.z(), 6, 2e-3);
+  EXPECT_TRUE(run.world.state(1).position.allFinite());
+}
+
+TEST(Moorings, ThatAreTautAndDoNotStretchAreRefused) {
+  MooringCase line;
+  line.line = MooringLine::catenary;
+  line.anchor = {6, 2, 2};
+  line.attachment = {6, 2, 6};
+  line.length = 4;
+  line.weight = 1;
+  EXPECT_EQ(error_of([&] { Trial run(moored(line), 1e-3); }),
+            "body 'buoy': mooring 0 (counted from 0) is taut: its ends are 4 m apart, and its length of 4 m does not stretch; give its "
+            "axial_stiffness, or make it longer");
+}
+
+// ---- wind
+
+TEST(Wind, DragsABodyUpToItsSpeedAsTheFormulaSays) {
+  Case scene = dry_case({40, 4, 4}, 0.5);
+  scene.gravity = Vector3d::Zero();
+  scene.bodies = {free_box("sail", {1, 2, 2}, {0.4, 0.4, 0.4})};
+  scene.bodies[0].rigid.collision = CollisionShape::none;
+  WindCase wind;
+  wind.velocity = {10, 0, 0};
+  wind.area = 0.5;
+  wind.drag_coefficient = 1.2;
+  wind.density = 1.2;
+  scene.bodies[0].rigid.wind = wind;
+  Trial run(scene, 1e-3);
+  const double mass = run.world.properties(1).mass, rate = 0.5 * 1.2 * 1.2 * 0.5 / mass;
+  run.until(2);
+  // du/dt = r (U − u)², from rest: U − u = U/(1 + r U t); a step takes u from its beginning, which is late by half of it: r U Δt of u
+  EXPECT_NEAR(run.world.state(1).velocity.x(), 10 - 10 / (1 + rate * 10 * 2), rate * 10 * 1e-3 * 1.84);
+  EXPECT_NEAR(run.world.state(1).velocity.z(), 0, 1e-12);
+}
+
+TEST(Wind, GustsHaveTheirIntensityAndTimeScaleAndRepeatThemselves) {
+  WindCase given;
+  given.velocity = {3, 0, 4};
+  given.gust_intensity = 0.2;
+  given.gust_time = 4;
+  const Wind wind(given), again(given);
+  given.seed = 2;
+  const Wind other(given);
+  double sum = 0, squares = 0, lagged = 0;
+  constexpr int count = 200000;
+  for (int k = 0; k < count; ++k) {
+    const double time = 0.1 * k, speed = wind.velocity(time).norm();
+    EXPECT_EQ(wind.velocity(time), again.velocity(time));
+    sum += speed;
+    squares += speed * speed;
+    lagged += (speed - 5) * (wind.velocity(time + 4).norm() - 5);
+  }
+  const double mean = sum / count, deviation = std::sqrt(squares / count - mean * mean);
+  EXPECT_NEAR(mean, 5, 0.05);
+  EXPECT_NEAR(deviation, 1, 0.05);
+  EXPECT_NEAR(lagged / count, std::exp(-1.0), 0.1) << "a time scale later they are alike by 1/e";
+  EXPECT_NE(wind.velocity(1), other.velocity(1));
+  EXPECT_NEAR(wind.velocity(3).x() / wind.velocity(3).z(), 0.75, 1e-12) << "from one side";
+}
+
+}  // namespace
+}  // namespace wavetank
