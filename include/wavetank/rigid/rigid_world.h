@@ -73,6 +73,15 @@ class RigidWorld {
   /// Throws Error for a body that is not commanded, or a value that is not finite. In the body's axes.
   void command(std::size_t owner, double time, const Vector3d& velocity, const Vector3d& angular_velocity);
 
+  /// Whether it is a paddle that takes away the waves which come back to it.
+  bool absorbs(std::size_t owner) const;
+  /// What the gauge of such a paddle shows at the beginning of a step, m. Throws Error for another body, or a level that is not finite.
+  void see_waves(std::size_t owner, double time, double level);
+  /// How much of the way that it may take for that it has taken, 0 to 1.
+  double absorption_taken(std::size_t owner) const;
+  /// Where a prescribed motion has an owner at a time, whatever it has absorbed. Throws Error for one that is not prescribed.
+  RigidState planned(std::size_t owner, double time) const;
+
   std::size_t joint_count() const;
   JointState joint_state(std::size_t joint) const;
 
