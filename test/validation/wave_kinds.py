@@ -153,7 +153,7 @@ def flap(program, base, spacing):
     paddle = {"point": [FACE, 0], "waves": {"kind": "regular", "direction": "pitch", "hinge": 0, "depth": DEPTH, "height": height, "period": period}}
     times, levels = run(program, base, flume(FACE + 3.5 * length, spacing, 14 * period, gauges, paddle, (FACE + 2.25 * length, 10 / period)))
     found = waves.measured(times, levels, gauges, period)
-    print("flap, H = %g m: height %+.1f %%, loss a wavelength %.1f %%" % (height, 100 * (found["height"] / height - 1), 100 * found["loss"]))
+    print("flap, H = %g m: height %+.1f %% at the paddle, %+.1f %% a wavelength on" % (height, 100 * (found["height at the paddle"] / height - 1), 100 * (found["height"] / height - 1)))
 
 
 def poses_of(bag):
