@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "case_keys.h"
@@ -202,7 +203,8 @@ void check_absorption(const Case& read, const Setting& root) {
     const double front = way.cwiseMax(0.0).dot(box->max) + way.cwiseMin(0.0).dot(box->min), before = way.dot(gauge->position) - front;
     if (!(before > 0))
       clash(root, path,
-            name + ", which stands " + number_text(-before) + " m behind the paddle's front; it must stand before it, where the waves go");
+            name + ", which stands " + number_text(std::round(-1e6 * before) / 1e6) +
+                " m behind the paddle's front; it must stand before it, where the waves go");
   }
 }
 

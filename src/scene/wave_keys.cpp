@@ -197,7 +197,8 @@ Section<InitialWaveCase> initial_wave_section() {
       .required = true;
   section.key("wavelength", &InitialWaveCase::wavelength, number_if_given(greater_than(0)), "m", "Of regular waves ...");
   section.key("period", &InitialWaveCase::period, number_if_given(greater_than(0)), "s", "... or else their period.");
-  section.key("standing", &InitialWaveCase::standing, flag(), "", "Of `linear`: a standing wave, at rest and highest.");
+  section.key_where([](const InitialWaveCase& wave) { return wave.kind == InitialWaveKind::linear; }, "standing",
+                    &InitialWaveCase::standing, flag(), "", "Of `linear`: a standing wave, at rest and highest.");
   section.key("direction", &InitialWaveCase::direction, vector(), "", "In which they go: level.");
   section.key("crest", &InitialWaveCase::crest, number({}), "m", "Where there is a crest: along `direction`, from the case's origin.");
   section.rule(check_initial_kind);

@@ -167,14 +167,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(WavesAtTheStart, AreReadAndWritten) {
   EXPECT_EQ(error_of(at_start), "(no error)");
-  for (const std::string waves :
+  for (const std::string& waves :
        {std::string(linear), std::string("waves: {kind: solitary, depth: 0.4, height: 0.1, direction: [-1, 0], crest: -2}"),
         std::string("waves: {kind: linear, depth: 0.4, height: 0.02, period: 1.5, standing: true}"),
         std::string("waves: {kind: stokes_2, depth: 0.4, height: 0.02, period: 1.5}"), std::string("elevation: 0.01*cos(x)")}) {
     const Case read = read_case_text(replaced(at_start, linear, waves), "case.yaml", {});
     const std::string written = write_case(read);
     EXPECT_EQ(write_case(read_case_text(written, "again.yaml", {})), written) << waves;
-    if (read.fluid.initial.elevation.empty()) EXPECT_TRUE(read.fluid.initial.waves) << waves;
+    EXPECT_EQ(read.fluid.initial.waves.has_value(), read.fluid.initial.elevation.empty()) << waves;
   }
 }
 
