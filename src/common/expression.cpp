@@ -8,13 +8,9 @@
 
 namespace wavetank {
 
-namespace {
-
-const char* variables(Expression::Of of) {
-  return of == Expression::Of::time ? "t" : of == Expression::Of::place ? "x, y and z" : "t, x, y and z";
+const char* Expression::variables(Of of) {
+  return of == Of::time ? "t" : of == Of::place ? "x, y and z" : of == Of::plan ? "x and y" : "t, x, y and z";
 }
-
-}  // namespace
 
 struct Expression::Parser {
   mu::Parser parser;
@@ -23,11 +19,11 @@ struct Expression::Parser {
 
 Expression::Expression(const std::string& text, Of of) : parser_(std::make_unique<Parser>()) {
   try {
-    if (of != Of::place) parser_->parser.DefineVar("t", &parser_->t);
+    if (of == Of::time || of == Of::time_and_place) parser_->parser.DefineVar("t", &parser_->t);
     if (of != Of::time) {
       parser_->parser.DefineVar("x", &parser_->x);
       parser_->parser.DefineVar("y", &parser_->y);
-      parser_->parser.DefineVar("z", &parser_->z);
+      if (of != Of::plan) parser_->parser.DefineVar("z", &parser_->z);
     }
     parser_->parser.DefineConst("pi", std::acos(-1.0));
     parser_->parser.SetExpr(text);

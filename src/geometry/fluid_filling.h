@@ -5,6 +5,7 @@
 #include "open_space.h"
 #include "outline.h"
 #include "wavetank/geometry/layout.h"
+#include "wavetank/scene/initial_state.h"
 
 namespace wavetank {
 
@@ -29,6 +30,13 @@ struct Basin {
   Top top;                             ///< of the tank
 };
 
+/// A free surface that is not level, by columns of a lattice (x fastest): their cells below it are stretched so that they end at it.
+struct CurvedSurface {
+  std::vector<double> height;  ///< m, of the surface over each column
+  std::vector<int> top;        ///< of each column, the uppermost cell below the surface; −1: there is no water at it
+  std::vector<float> stretch;  ///< of each cell of the lattice, its height over that of a cell
+};
+
 /// One region of the case, filled: a regular lattice and which of its cells hold a particle.
 struct FilledRegion {
   std::string key;       ///< of the case, for messages: fluid/fill/0
@@ -40,7 +48,9 @@ struct FilledRegion {
   std::vector<float> share;        ///< of each cell's volume, what its particle has: more in a gap whose rows do not fill it
   FreeSurface surface;             ///< that it was filled up to
   double volume = 0;               ///< of a cell, m³ (2-D: m²)
+  CurvedSurface curved;            ///< empty where it is level
 
+  std::size_t column(int i, int j) const { return static_cast<std::size_t>(j) * count[0] + i; }
   std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i; }
   Vector3d centre(int i, int j, int k) const { return first + step.cwiseProduct(Vector3d(i, j, k)); }
 };
@@ -54,6 +64,11 @@ FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const 
 /// reached space: for a box-shaped one the volume is exact, cells then being a little off the spacing. Throws Error for a seed in the wrong
 /// place and for a leak.
 FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spacing, const std::string& key);
+
+/// Gives a region that is filled to a level a surface that is `initial`'s elevation over it: in each column the water below the surface has
+/// as many cells as fit best, all of one height. For gravity along −z. Throws Error where the surface is over the tank's rim or at its
+/// floor.
+void raise_surface(const Basin& basin, const InitialState& initial, FilledRegion& region);
 
 /// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no
 /// room.

@@ -156,6 +156,7 @@ Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box&
 
 std::vector<FilledRegion> fill(const Case& checked, const Basin& basin, double spacing) {
   std::vector<FilledRegion> regions;
+  const InitialState initial(checked);
   for (std::size_t f = 0; f < checked.fluid.fill.size(); ++f) {
     const std::string key = "fluid/fill/" + std::to_string(f);
     const FillRegion& region = checked.fluid.fill[f];
@@ -164,6 +165,7 @@ std::vector<FilledRegion> fill(const Case& checked, const Basin& basin, double s
     } else {
       regions.push_back(fill_flood(basin, std::get<FloodFill>(region), spacing, key));
     }
+    if (initial.has_elevation()) raise_surface(basin, initial, regions.back());
     keep_off_walls(basin, spacing, regions.back());
     keep_out_of_gaps(basin, regions.back());
   }
@@ -253,11 +255,16 @@ double level_over(const Vector3d& place, const FillRegion& fill, const FreeSurfa
   return up.dot(place) + (surface.height - surface.normal.dot(place)) / surface.normal.dot(up);
 }
 
+/// Of the surface over a cell.
+double level_over(const FilledRegion& region, std::size_t cell, const FillRegion& fill, const Vector3d& up) {
+  if (!region.curved.height.empty()) return region.curved.height[cell % region.curved.height.size()];
+  return level_over(region.position[cell], fill, region.surface, up);
+}
+
 void find_levels(const Case& checked, const std::vector<FilledRegion>& regions, Layout& layout) {
   for (std::size_t f = 0; f < regions.size(); ++f)
     for (std::size_t c = 0; c < regions[f].filled.size(); ++c)
-      if (regions[f].filled[c])
-        layout.levels.push_back(level_over(regions[f].position[c], checked.fluid.fill[f], regions[f].surface, layout.up));
+      if (regions[f].filled[c]) layout.levels.push_back(level_over(regions[f], c, checked.fluid.fill[f], layout.up));
 }
 
 void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
@@ -266,6 +273,7 @@ void add_particles(const std::vector<FilledRegion>& regions, Layout& layout) {
       if (!region.filled[c]) continue;
       layout.particles.push_back(region.position[c]);
       layout.volumes.push_back(region.share[c] * region.volume);
+      if (!region.curved.stretch.empty()) layout.volumes.back() *= region.curved.stretch[c];
     }
   }
 }

@@ -70,6 +70,38 @@ WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int 
   return element;
 }
 
+/// How the surface rises along an axis at a column, from those beside it that have one.
+double slope_at(const FilledRegion& region, int i, int j, int axis) {
+  if (region.step[axis] == 0) return 0.0;
+  int low[2] = {i, j}, high[2] = {i, j};
+  const auto has_surface = [&](const int column[2]) {
+    return column[axis] >= 0 && column[axis] < region.count[axis] && region.curved.top[region.column(column[0], column[1])] >= 0;
+  };
+  if (--low[axis]; !has_surface(low)) ++low[axis];
+  if (++high[axis]; !has_surface(high)) --high[axis];
+  if (high[axis] == low[axis]) return 0.0;
+  return (region.curved.height[region.column(high[0], high[1])] - region.curved.height[region.column(low[0], low[1])]) /
+         ((high[axis] - low[axis]) * region.step[axis]);
+}
+
+/// On the surface over a column, inclined as it is.
+WallElement inclined_element(const FilledRegion& region, int i, int j, int k) {
+  const double along_x = slope_at(region, i, j, 0), along_y = slope_at(region, i, j, 1);
+  WallElement element = lid_element(region, region.centre(i, j, k), 2, 1);
+  element.centre.z() = region.curved.height[region.column(i, j)];
+  element.normal = Vector3d(-along_x, -along_y, 1.0).normalized();
+  element.tangent = Vector3d(1.0, 0.0, along_x).normalized();
+  element.area *= std::sqrt(1.0 + along_x * along_x + along_y * along_y);
+  return element;
+}
+
+/// Whether a cell's side looks at water that only stands lower, below a surface that is not level: the lid on that closes it.
+bool looks_over_surface(const FilledRegion& region, const int neighbour[3], int axis) {
+  if (region.curved.top.empty() || axis == 2 || neighbour[axis] < 0 || neighbour[axis] >= region.count[axis]) return false;
+  const int top = region.curved.top[region.column(neighbour[0], neighbour[1])];
+  return top >= 0 && neighbour[2] > top;
+}
+
 }  // namespace
 
 void check_overlap(const std::vector<FilledRegion>& regions, double spacing) {
@@ -103,11 +135,13 @@ std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std:
             int neighbour[3] = {i, j, k};
             neighbour[axis] += way;
             if (is_marked(region, region.filled, neighbour) || is_marked(region, region.taken, neighbour)) continue;
-            const Vector3d from = region.centre(i, j, k);
-            const Vector3d to = region.centre(neighbour[0], neighbour[1], neighbour[2]);
+            if (looks_over_surface(region, neighbour, axis)) continue;
+            const bool on_surface = side == 5 && !region.curved.top.empty() && region.curved.top[region.column(i, j)] == k;
+            const Vector3d from = on_surface ? region.position[region.index(i, j, k)] : region.centre(i, j, k);
+            const Vector3d to = from + region.centre(neighbour[0], neighbour[1], neighbour[2]) - region.centre(i, j, k);
             // A little farther than the next centre: a cell that stays empty because it touches a wall needs no lid before that wall.
             if (basin.grid->crosses(from, from + 1.06 * (to - from)) || finder.other(r, to, 0.75 * spacing)) continue;
-            lid.push_back(lid_element(region, from, axis, way));
+            lid.push_back(on_surface ? inclined_element(region, i, j, k) : lid_element(region, from, axis, way));
           }
         }
       }

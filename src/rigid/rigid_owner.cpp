@@ -1,5 +1,10 @@
 #include "rigid_owner.h"
 
+#include <algorithm>
+
+#include "wavetank/common/error.h"
+#include "wavetank/scene/file_path.h"
+
 namespace wavetank {
 namespace {
 
@@ -34,7 +39,40 @@ void set_going(RigidOwner& owner, const Case& scene, const RigidCase& rigid, con
   }
 }
 
+/// Along a unit vector, the farthest corner of a box, m.
+double farthest(const Box& box, const Vector3d& way) { return way.cwiseMax(0.0).dot(box.max) + way.cwiseMin(0.0).dot(box.min); }
+
+/// Of a paddle that takes away the waves which come back to it.
+void add_absorption(RigidOwner& owner, const Case& scene, const PrescribedCase& prescribed, const Layout& layout, const TriangleMesh& mesh,
+                    const ResourceResolver& resolve) {
+  const WaveCase& wave = *prescribed.waves;
+  const auto& gauges = scene.instruments.wave_gauges;
+  const auto gauge =
+      std::find_if(gauges.begin(), gauges.end(), [&](const WaveGaugeCase& known) { return known.name == wave.absorption->gauge; });
+  if (gauge == gauges.end())
+    throw Error(owner.what + ": prescribed/waves/absorption/gauge is " + wave.absorption->gauge + ", which is no wave gauge of the case");
+  owner.wave_way = piston_way(wave, prescribed);
+  const Box box = mesh.bounding_box();
+  PaddlePlace place;
+  place.gauge = owner.wave_way.dot(gauge->position) - farthest(box, owner.wave_way);
+  place.ahead = farthest(layout.domain, owner.wave_way) - farthest(box, owner.wave_way);
+  place.behind = farthest(layout.domain, -owner.wave_way) - farthest(box, -owner.wave_way);
+  const std::string path =
+      wave.kind == WaveKind::record ? file_path("wave record", wave.record.file, scene.directory, resolve) : std::string();
+  owner.absorption.emplace(wave, scene.gravity.norm(), place, path, owner.what);
+}
+
 }  // namespace
+
+RigidState RigidOwner::prescribed_at(double time) const {
+  RigidState state = prescribed->at(time);
+  if (!absorption) return state;
+  const Change change = absorption->at(time);
+  state.position += change.value * wave_way;
+  state.velocity += change.rate * wave_way;
+  state.acceleration += change.acceleration * wave_way;
+  return state;
+}
 
 std::vector<RigidOwner> make_owners(const Case& scene, const Layout& layout, const ResourceResolver& resolve) {
   std::vector<RigidOwner> owners;
@@ -45,6 +83,9 @@ std::vector<RigidOwner> make_owners(const Case& scene, const Layout& layout, con
     const BodyCase& body = scene.bodies[b];
     owners.push_back(make_owner(scene, body.rigid, body.motion, layout.meshes.at(b + 1), "body '" + body.name + "'"));
     set_going(owners.back(), scene, body.rigid, owners[0].reference, false, resolve);
+    const auto& waves = body.rigid.prescribed.waves;
+    if (body.motion == Motion::prescribed && waves && waves->absorption)
+      add_absorption(owners.back(), scene, body.rigid.prescribed, layout, layout.meshes.at(b + 1), resolve);
   }
   return owners;
 }

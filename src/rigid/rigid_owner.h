@@ -6,6 +6,7 @@
 
 #include "free_motion.h"
 #include "outside_forces.h"
+#include "wave_absorption.h"
 #include "wavetank/geometry/layout.h"
 #include "wavetank/rigid/commanded_motion.h"
 #include "wavetank/rigid/prescribed_motion.h"
@@ -23,10 +24,14 @@ struct RigidOwner {
   Vector3d reference = Vector3d::Zero();  ///< m, as the case's geometry has it
   RigidState state;                       ///< in the world; of a body that is fixed to the tank see riding()
   std::optional<PrescribedMotion> prescribed;
+  std::optional<WaveAbsorption> absorption;  ///< of a piston, beside what is prescribed ...
+  Vector3d wave_way = Vector3d::Zero();      ///< ... along this, unit
   std::optional<CommandedMotion> commanded;
   std::optional<OutsideForces> forces;  ///< of free ones
 
   bool is_free() const { return motion == Motion::free; }
+  /// Of a prescribed one.
+  RigidState prescribed_at(double time) const;
 };
 
 /// The tank and the bodies of a case at the start.

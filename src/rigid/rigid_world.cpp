@@ -75,7 +75,8 @@ void RigidWorld::advance(double time, double time_step, const std::vector<RigidL
     }
   }
   for (RigidOwner& owner : owners) {
-    if (owner.prescribed) owner.state = owner.prescribed->at(time + time_step);
+    if (owner.prescribed) owner.state = owner.prescribed_at(time + time_step);
+    if (owner.absorption) owner.absorption->advance(time, time_step);
     if (owner.commanded) owner.state = owner.commanded->advance(time, time_step);
   }
   std::vector<RigidState> now = parts.present();
@@ -114,6 +115,26 @@ std::vector<MooringState> RigidWorld::moorings() const {
   return states;
 }
 
+bool RigidWorld::absorbs(std::size_t owner) const { return parts_->owners.at(owner).absorption.has_value(); }
+
+void RigidWorld::see_waves(std::size_t owner, double time, double level) {
+  RigidOwner& paddle = parts_->owners.at(owner);
+  if (!paddle.absorption) throw Error(paddle.what + " does not absorb waves");
+  if (!std::isfinite(level)) throw Error("the gauge of " + paddle.what + " shows no finite level" + parts_->at_time(time));
+  paddle.absorption->see(time, level);
+}
+
+double RigidWorld::absorption_taken(std::size_t owner) const {
+  const RigidOwner& paddle = parts_->owners.at(owner);
+  return paddle.absorption ? paddle.absorption->taken() : 0.0;
+}
+
+RigidState RigidWorld::planned(std::size_t owner, double time) const {
+  const RigidOwner& body = parts_->owners.at(owner);
+  if (!body.prescribed) throw Error(body.what + " has no prescribed motion");
+  return body.prescribed->at(time);
+}
+
 std::size_t RigidWorld::joint_count() const { return parts_->joints.size(); }
 JointState RigidWorld::joint_state(std::size_t joint) const {
   std::vector<RigidState> states = parts_->present();
@@ -143,6 +164,10 @@ std::vector<char> RigidWorld::save() const {
   std::vector<double> values{mark, static_cast<double>(count()), static_cast<double>(joint_count())};
   for (const RigidOwner& owner : parts_->owners) {
     append(values, owner.state);
+    if (owner.absorption) {
+      const std::vector<double> more = owner.absorption->save();
+      values.insert(values.end(), more.begin(), more.end());
+    }
     if (owner.commanded) {
       const std::vector<double> more = owner.commanded->save();
       values.insert(values.end(), more.begin(), more.end());
@@ -172,6 +197,10 @@ void RigidWorld::restore(const std::vector<char>& bytes) {
   const double* next = values.data() + 3;
   for (RigidOwner& owner : parts_->owners) {
     owner.state = take_state(next);
+    if (owner.absorption) {
+      owner.absorption->restore(next);
+      next += WaveAbsorption::saved_numbers;
+    }
     if (owner.commanded) {
       const std::size_t size = owner.commanded->saved_size();
       owner.commanded->restore(std::vector<double>(next, next + size));

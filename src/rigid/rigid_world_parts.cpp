@@ -127,7 +127,7 @@ std::vector<RigidState> RigidWorld::Parts::ahead(double time, double step) const
   std::vector<RigidState> states;
   for (const RigidOwner& owner : owners) {
     if (owner.prescribed) {
-      states.push_back(owner.prescribed->at(time + step));
+      states.push_back(owner.prescribed_at(time + step));
     } else if (owner.commanded) {
       CommandedMotion copy = *owner.commanded;
       states.push_back(copy.advance(time, step));

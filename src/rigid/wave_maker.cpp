@@ -56,8 +56,8 @@ bool is_flap(const WaveCase& wave) { return wave.direction == Direction::pitch |
 SolitaryWave::SolitaryWave(double height, double depth, double gravity)
     : height_(height),
       depth_(depth),
-      outskirts_(std::sqrt(3.0 * height / (4.0 * depth * depth * (depth + height)))),
-      celerity_(std::sqrt(gravity * (depth + height))) {}
+      outskirts_(solitary_profile(height, depth, gravity).outskirts),
+      celerity_(solitary_profile(height, depth, gravity).celerity) {}
 
 double SolitaryWave::duration() const { return (2.0 * edge / outskirts_ + stroke() * std::tanh(edge)) / celerity_; }
 

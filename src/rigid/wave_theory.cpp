@@ -1,15 +1,12 @@
 #include "wavetank/rigid/wave_theory.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <complex>
 #include <cstdint>
 #include <random>
-#include <tuple>
 #include <unsupported/Eigen/FFT>
 
-#include "number_text.h"
 #include "wave_maker.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/record_file.h"
@@ -106,26 +103,7 @@ std::vector<WaveComponent> recorded_components(const WaveCase& wave, double grav
   return components;
 }
 
-std::string breaking_of(double height, double depth, double k) {
-  const double miche = 0.142 * 2.0 * M_PI / k * std::tanh(k * depth), mccowan = 0.78 * depth;
-  if (height > mccowan) return "higher than McCowan's 0.78 of the depth, " + number_text(mccowan) + " m";
-  if (height > miche) return "higher than Miche's 0.142 L tanh kd, " + number_text(miche) + " m";
-  return "";
-}
-
 }  // namespace
-
-double wave_number(double angular_frequency, double depth, double gravity) {
-  const double deep = angular_frequency * angular_frequency * depth / gravity;  // kd of deep water
-  const auto excess = [deep](double kd) {
-    const double tanh = std::tanh(kd);
-    return std::make_tuple(kd * tanh - deep, tanh + kd * (1.0 - tanh * tanh));
-  };
-  // between deep and shallow water, both of which are too small for the other
-  const double least = std::max(deep, std::sqrt(deep)) * (1 - 1e-12), most = least + 1.0;
-  std::uintmax_t iterations = 60;
-  return boost::math::tools::newton_raphson_iterate(excess, least, 0.0, most, 52, iterations) / depth;
-}
 
 double wave_over_stroke(double wave_number, double depth, const std::optional<double>& hinge) {
   // all times e^−kd, so that nothing overflows in deep water
@@ -164,7 +142,7 @@ WaveFacts wave_facts(const WaveCase& wave, double gravity, const std::string& re
     facts.wavelength = 2.0 * std::acosh(10.0) / solitary.outskirts();
     facts.stroke = solitary.stroke();
     facts.regime = "shallow";
-    if (wave.height > 0.78 * wave.depth) facts.breaking = breaking_of(wave.height, wave.depth, solitary.outskirts());
+    facts.breaking = why_it_breaks(wave.height, wave.depth, 0);
   } else {
     const std::vector<WaveComponent> components = wave_components(wave, gravity, record_path, what);
     double variance = 0, strokes = 0;
@@ -189,7 +167,7 @@ WaveFacts wave_facts(const WaveCase& wave, double gravity, const std::string& re
     facts.wavelength = 2.0 * M_PI / k;
     facts.celerity = facts.wavelength / facts.period;
     facts.regime = kd < M_PI / 10 ? "shallow" : kd > M_PI ? "deep" : "intermediate";
-    facts.breaking = breaking_of(facts.height, wave.depth, k);
+    facts.breaking = why_it_breaks(facts.height, wave.depth, k);
   }
   facts.ursell = facts.height * facts.wavelength * facts.wavelength / std::pow(wave.depth, 3);
   facts.steepness = facts.height / facts.wavelength;

@@ -6,6 +6,7 @@
 #include "opening_keys.h"
 #include "rigid_keys.h"
 #include "robot_keys.h"
+#include "wave_keys.h"
 
 namespace wavetank::scene {
 namespace {
@@ -92,10 +93,14 @@ Section<FluidCase> fluid_section() {
   initial.key("w", &InitialCase::w, expression(Expression::Of::place), "m/s", "Along z.");
   initial.key("pressure", &InitialCase::pressure, expression(Expression::Of::place), "Pa",
               "Gauge pressure, instead of the hydrostatic one.");
+  initial.key("elevation", &InitialCase::elevation, expression(Expression::Of::plan), "m",
+              "Of the free surface over the level of each `fill`, such as `0.02*cos(2*pi*x)`: of x and y; with gravity along −z. What is "
+              "hydrostatic is so below it.");
+  initial.key("waves", &InitialCase::waves, section_if_given(initial_wave_section()), "",
+              "Waves by theory that are there at the start: surface, velocity and pressure together, instead of the expressions.");
   section.key("initial", &FluidCase::initial, section_of(initial), "",
-              "Velocity and pressure at the start, after packing and settling: expressions of x, y, z (m), with pi and the usual "
-              "functions. What is not "
-              "given is at rest and hydrostatic.");
+              "The water at the start, after packing and settling: expressions of x, y, z (m), with pi and the usual functions, or waves "
+              "by theory. What is not given is level, at rest and hydrostatic.");
   section.key("current", &FluidCase::current, vector_in_plane(), "m/s",
               "Velocity of all water at the start, beside what `initial` gives: a flume begins with its current.");
   section.exactly_one_of({{"spacing"}, {"particles"}});

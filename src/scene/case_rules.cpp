@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "case_keys.h"
@@ -7,6 +8,8 @@
 #include "motion_values.h"
 #include "opening_keys.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/water_waves.h"
+#include "wavetank/scene/initial_state.h"
 #include "wavetank/scene/upward.h"
 
 namespace wavetank::scene {
@@ -175,6 +178,67 @@ void check_waves(const Case& read, const Setting& root) {
   if (any && read.gravity.isZero(0.0)) clash(root, "gravity", "zero, without which there are no waves; give some");
 }
 
+// The gauge that a paddle absorbs waves by.
+void check_absorption(const Case& read, const Setting& root) {
+  for (std::size_t b = 0; b < read.bodies.size(); ++b) {
+    const PrescribedCase& prescribed = read.bodies[b].rigid.prescribed;
+    if (!prescribed.waves || !prescribed.waves->absorption) continue;
+    const std::string path = join_path(join_path("bodies", b), "prescribed/waves/absorption/gauge"),
+                      name = prescribed.waves->absorption->gauge;
+    if (read.tank.motion != Motion::fixed)
+      clash(root, join_path(join_path("bodies", b), "prescribed/waves/absorption"),
+            "given, and tank/motion is not fixed; gauges that move with a tank do not tell what comes back: leave one of them out");
+    const auto& gauges = read.instruments.wave_gauges;
+    const auto gauge = std::find_if(gauges.begin(), gauges.end(), [&](const WaveGaugeCase& known) { return known.name == name; });
+    if (gauge == gauges.end()) {
+      std::string known;
+      for (const WaveGaugeCase& other : gauges) known += (known.empty() ? "" : ", ") + other.name;
+      clash(root, path,
+            name + ", which is no wave gauge of the case; " +
+                (known.empty() ? std::string("it has none: give one before the paddle, in instruments/wave_gauges")
+                               : "name one of " + known));
+    }
+    const auto* box = std::get_if<Box>(&read.bodies[b].shape);  // of meshes it is seen when they have been read
+    if (box == nullptr) continue;
+    const Vector3d way = piston_way(*prescribed.waves, prescribed);
+    const double front = way.cwiseMax(0.0).dot(box->max) + way.cwiseMin(0.0).dot(box->min), before = way.dot(gauge->position) - front;
+    if (!(before > 0))
+      clash(root, path,
+            name + ", which stands " + number_text(std::round(-1e6 * before) / 1e6) +
+                " m behind the paddle's front; it must stand before it, where the waves go");
+  }
+}
+
+// What water can be at the start.
+void check_initial(const Case& read, const Setting& root) {
+  const InitialCase& initial = read.fluid.initial;
+  if (initial.elevation.empty() && !initial.waves) return;
+  const std::string path = std::string("fluid/initial/") + (initial.waves ? "waves" : "elevation");
+  if (!(read.gravity.z() < 0) || read.gravity.x() != 0 || read.gravity.y() != 0)
+    clash(root, path, "given, which is for gravity along −z; leave it out, or set gravity so");
+  if (read.fluid.fill.empty()) clash(root, path, "given, and there is no water at the start; leave it out, or give fluid/fill a region");
+  if (read.numerics.packing.settling > 0)
+    clash(root, "numerics/packing/settling",
+          "above 0, with which the water comes to rest, and " + path + " is given; leave one of them out");
+  if (!initial.waves) return;
+  const InitialWaveCase& waves = *initial.waves;
+  for (const auto& [key, text] : {std::pair<const char*, const std::string&>{"elevation", initial.elevation},
+                                  {"u", initial.u},
+                                  {"v", initial.v},
+                                  {"w", initial.w},
+                                  {"pressure", initial.pressure}})
+    if (!text.empty())
+      clash(root, join_path("fluid/initial", key), "given beside fluid/initial/waves, which give it; leave one of them out");
+  for (std::size_t f = 1; f < read.fluid.fill.size(); ++f)
+    if (filled_to(read.fluid.fill[f], read) != filled_to(read.fluid.fill[0], read))
+      clash(root, join_path("fluid/fill", f),
+            "filled to another level than fluid/fill/0, and fluid/initial/waves are over one; fill to the same, or leave them out");
+  const std::string breaking = why_it_breaks(waves.height, waves.depth, wave_number_of(waves, read.gravity.norm()));
+  if (!breaking.empty())
+    clash(root, "fluid/initial/waves/height",
+          number_text(waves.height) + " m, with which they would break: " + breaking + "; make it less");
+}
+
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
 void check_periodic(const Case& read, const Setting& root) {
   const TankCase& tank = read.tank;
@@ -295,6 +359,8 @@ void check_case(const Case& read, const Setting& root) {
     check_friction(read, root, read.bodies[b].skin_friction, join_path(join_path("bodies", b), "skin_friction"));
   check_periodic(read, root);
   check_waves(read, root);
+  check_absorption(read, root);
+  check_initial(read, root);
   check_levels(read, root);
   check_joints(read, root);
   if (read.numerics.acoustic_damping > 0 && read.numerics.integrator != Integrator::symplectic)

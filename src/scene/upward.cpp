@@ -29,6 +29,13 @@ Top top_of(const Case& read) {
   return top;
 }
 
+Vector3d piston_way(const WaveCase& wave, const PrescribedCase& prescribed) {
+  const Vector3d way = wave.direction == Direction::sway     ? Vector3d(Vector3d::UnitY())
+                       : wave.direction == Direction::stroke ? Vector3d(prescribed.axis.normalized())
+                                                             : Vector3d(Vector3d::UnitX());
+  return wave.reversed ? Vector3d(-way) : way;
+}
+
 double lowest_of(const Box& box, const Vector3d& up) { return (up.cwiseProduct(box.min)).cwiseMin(up.cwiseProduct(box.max)).sum(); }
 
 double highest_of(const Box& box, const Vector3d& up) { return (up.cwiseProduct(box.min)).cwiseMax(up.cwiseProduct(box.max)).sum(); }

@@ -250,8 +250,8 @@ Codec<std::string> expression(Expression::Of of) {
   Codec<std::string> codec = text();
   codec.type = "expression";
   codec.read = [of](const Setting& setting, const Item& item, Context&) {
-    const std::string variables = of == Expression::Of::time ? "t" : of == Expression::Of::place ? "x, y and z" : "t, x, y and z";
-    if (setting.kind != Setting::Kind::scalar || setting.text.empty()) refuse(setting, item, "an expression of " + variables);
+    if (setting.kind != Setting::Kind::scalar || setting.text.empty())
+      refuse(setting, item, std::string("an expression of ") + Expression::variables(of));
     try {
       Expression(setting.text, of);
     } catch (const Error& wrong) {

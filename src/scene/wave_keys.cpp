@@ -81,6 +81,21 @@ Section<WaveRecordCase> wave_record_section() {
   return section;
 }
 
+Section<WaveAbsorptionCase> absorption_section() {
+  Section<WaveAbsorptionCase> section;
+  section
+      .key(
+          "gauge", &WaveAbsorptionCase::gauge, nonempty_text(), "",
+          "Name of the wave gauge by which waves that come back are seen: before the paddle, by no more than a quarter of a wavelength; an "
+          "eighth is well.")
+      .required = true;
+  section.key("recall", &WaveAbsorptionCase::recall, number_if_given(greater_than(0)), "s",
+              "Time in which the paddle comes back to where the theory has it; if it is left out, four periods, or those of the peak.");
+  section.key("reach", &WaveAbsorptionCase::reach, number_if_given(greater_than(0)), "m",
+              "Farthest that absorption takes the paddle from where the theory has it; if it is left out, what the tank leaves.");
+  return section;
+}
+
 void check_kind(const WaveCase& wave, const Setting& map, const std::string& path, const Context&) {
   const std::string kind = word_of(wave.kind);
   for (const KindKey& key : kind_keys()) {
@@ -99,6 +114,21 @@ void check_kind(const WaveCase& wave, const Setting& map, const std::string& pat
     refuse_key(map, path, "order", "is 2, which is for pistons: Madsen's theory; leave it out, or choose the direction surge");
   if (turns(wave) && wave.kind == WaveKind::solitary)
     refuse_key(map, path, "kind", "is solitary, which is for pistons; choose the direction surge");
+  if (turns(wave) && wave.absorption) refuse_key(map, path, "absorption", "is for pistons; leave it out, or choose the direction surge");
+}
+
+void check_initial_kind(const InitialWaveCase& wave, const Setting& map, const std::string& path, const Context&) {
+  const bool solitary = wave.kind == InitialWaveKind::solitary;
+  for (const char* key : {"wavelength", "period", "standing"})
+    if (solitary && map.find(key) != nullptr) refuse_key(map, path, key, "is not for a solitary wave; leave it out");
+  if (wave.standing && wave.kind == InitialWaveKind::stokes_2)
+    refuse_key(map, path, "standing", "is of linear theory only; leave it out, or set " + join_path(path, "kind") + " to linear");
+  if (!solitary && !wave.wavelength && !wave.period)
+    refuse_key(map, path, "wavelength", "is missing; waves that repeat themselves need it, or a period");
+  if (wave.wavelength && wave.period)
+    refuse_key(map, path, "period", "is given beside " + join_path(path, "wavelength") + ", from which it follows; leave one of them out");
+  if (wave.direction.head<2>().isZero(0.0) || wave.direction.z() != 0.0)
+    refuse_vector(map, path, "direction", wave.direction, "level and not all 0: [1, 0, 0], say, in 2-D [1, 0] or [-1, 0]");
 }
 
 }  // namespace
@@ -146,7 +176,32 @@ Section<WaveCase> wave_section() {
       belongs("rise"), "rise", &WaveCase::rise, number_if_given(greater_than(0)), "s",
       "Time from the start in which the motion rises smoothly to its full size; if it is left out, one period, or that of the "
       "peak.");
+  section.key("absorption", &WaveCase::absorption, section_if_given(absorption_section()), "",
+              "Of a piston: it takes away the waves that come back to it, by a gauge before it.");
   section.rule(check_kind);
+  return section;
+}
+
+Section<InitialWaveCase> initial_wave_section() {
+  Section<InitialWaveCase> section;
+  section
+      .key("kind", &InitialWaveCase::kind,
+           choice<InitialWaveKind>(
+               {{"linear", InitialWaveKind::linear}, {"stokes_2", InitialWaveKind::stokes_2}, {"solitary", InitialWaveKind::solitary}}),
+           "", "`linear`, small regular waves; `stokes_2`, regular waves to the second order; `solitary`, Rayleigh's wave.")
+      .required = true;
+  section.key("depth", &InitialWaveCase::depth, number(greater_than(0)), "m", "Of the still water, over a level floor.").required = true;
+  section
+      .key("height", &InitialWaveCase::height, number(greater_than(0)), "m",
+           "From trough to crest; of a solitary wave that of the crest over the still level.")
+      .required = true;
+  section.key("wavelength", &InitialWaveCase::wavelength, number_if_given(greater_than(0)), "m", "Of regular waves ...");
+  section.key("period", &InitialWaveCase::period, number_if_given(greater_than(0)), "s", "... or else their period.");
+  section.key_where([](const InitialWaveCase& wave) { return wave.kind == InitialWaveKind::linear; }, "standing",
+                    &InitialWaveCase::standing, flag(), "", "Of `linear`: a standing wave, at rest and highest.");
+  section.key("direction", &InitialWaveCase::direction, vector(), "", "In which they go: level.");
+  section.key("crest", &InitialWaveCase::crest, number({}), "m", "Where there is a crest: along `direction`, from the case's origin.");
+  section.rule(check_initial_kind);
   return section;
 }
 

@@ -7,6 +7,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
 #include "wavetank/scene/file_path.h"
+#include "wavetank/scene/initial_state.h"
 
 namespace wavetank {
 namespace {
@@ -38,6 +39,24 @@ std::pair<double, double> water_of(const Layout& layout) {
   return {top, bottom};
 }
 
+/// Of those that are there at the start.
+void tell_of_initial_waves(const Case& checked, const Layout& layout) {
+  const InitialWaveCase& wave = *checked.fluid.initial.waves;
+  const auto warn = [](const std::string& text) { log(LogLevel::warning, "fluid/initial/waves " + text); };
+  if (layout.particles.empty()) return;
+  const double depth = filled_to(checked.fluid.fill.front(), checked) - water_of(layout).second;
+  if (std::abs(depth - wave.depth) > depth_tolerance * wave.depth)
+    warn("are made for a depth of " + number(wave.depth) + " m, but the water is " + number(depth) + " m deep");
+  if (wave.height < fewest_over_height * layout.spacing)
+    warn("are only " + number(wave.height / layout.spacing) + " spacings high: fewer than " + number(fewest_over_height) +
+         " decay faster than water does; choose a smaller fluid/spacing than " + number(layout.spacing) + " m");
+  const double k = wave_number_of(wave, checked.gravity.norm());
+  const double ursell = k > 0 ? wave.height * std::pow(2.0 * M_PI / k, 2) / std::pow(wave.depth, 3) : 0.0;
+  if (ursell > greatest_ursell)
+    warn("have an Ursell number of " + number(ursell) + ": beyond " + number(greatest_ursell) +
+         " neither first- nor second-order theory holds, and they change on their way");
+}
+
 }  // namespace
 
 std::vector<ExpectedWaves> expected_waves(const Case& checked, const Layout& layout, const ResourceResolver& resolve) {
@@ -61,6 +80,9 @@ std::vector<ExpectedWaves> expected_waves(const Case& checked, const Layout& lay
 }
 
 void tell_of_waves(const Case& checked, const Layout& layout, const ResourceResolver& resolve) {
+  const InitialCase& initial = checked.fluid.initial;
+  const bool level_at_start = initial.elevation.empty() && !initial.waves;
+  if (initial.waves) tell_of_initial_waves(checked, layout);
   const std::vector<ExpectedWaves> all = expected_waves(checked, layout, resolve);
   for (const ExpectedWaves& waves : all) {
     const auto body = std::find_if(checked.bodies.begin(), checked.bodies.end(), [&](const BodyCase& it) { return it.name == waves.body; });
@@ -83,7 +105,7 @@ void tell_of_waves(const Case& checked, const Layout& layout, const ResourceReso
     if (layout.particles.empty()) continue;
     const auto [level, floor] = water_of(layout);
     const double depth = level - floor;
-    if (std::abs(depth - wave.depth) > depth_tolerance * wave.depth)
+    if (level_at_start && std::abs(depth - wave.depth) > depth_tolerance * wave.depth)
       warn("are made for a depth of " + number(wave.depth) + " m, but the water is " + number(depth) + " m deep");
     if (wave.direction != Direction::pitch && wave.direction != Direction::angle) continue;
     const double hinge = layout.up.dot(*body->rigid.prescribed.point) - floor;

@@ -31,6 +31,7 @@ double fastest_wall(const Case& scene, const Layout& layout, const ResourceResol
     if (motion == Motion::prescribed) {
       speed = PrescribedMotion(rigid.prescribed, reference, scene.dimensions, scene.gravity.norm(), scene.directory, resolve, what)
                   .greatest_speed(box, scene.duration);
+      if (rigid.prescribed.waves && rigid.prescribed.waves->absorption) speed *= 2;  // of waves as high that come back
     } else if (motion == Motion::commanded) {
       speed = rigid.command.greatest_speed.value_or(0) + rigid.command.greatest_angular_speed.value_or(0) * reach_of(box, reference);
     } else if (motion == Motion::free) {
@@ -138,7 +139,8 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
             std::vector<FlowAtOpening> flows;
             for (const OpeningState& state : openings.states()) flows.push_back({state.discharge, state.volume});
             return flows;
-          }) {
+          }),
+      paddles(scene, layout, *solver, world) {
   tell_of_noise(scene);
   tell_of_waves(scene, layout, options.resolve);
   tell_of_shallow_water(layout);
@@ -250,6 +252,7 @@ void Simulation::Parts::shorten_step() {
 }
 
 void Simulation::Parts::advance() {
+  paddles.look(*solver, time);
   shorten_step();
   const double last_time = time, next_time = time + time_step;
   recorder.before_step(*solver, last_time, next_time);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "absorbing_paddles.h"
 #include "coupling.h"
 #include "opening_flows.h"
 #include "water_film.h"
@@ -66,6 +67,7 @@ struct Simulation::Parts {
   compute::Device device;
   std::unique_ptr<Solver> solver;
   Recorder recorder;
+  AbsorbingPaddles paddles;
   PackingReport packing;
   std::vector<char> initial_fluid, initial_bodies, initial_openings;
   double initial_time_step = 0;

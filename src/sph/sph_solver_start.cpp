@@ -1,25 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "equation_of_state.h"
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
-#include "wavetank/common/expression.h"
+#include "wavetank/scene/initial_state.h"
 
 namespace wavetank {
-namespace {
-
-double finite_at(const Expression& expression, const Eigen::Vector3d& place, const std::string& key) {
-  const double value = expression.at(place);
-  if (std::isfinite(value)) return value;
-  char text[120];
-  std::snprintf(text, sizeof text, "%g, %g, %g", place.x(), place.y(), place.z());
-  throw Error("fluid/initial/" + key + " is not finite at (" + text + ") m, where there is water at the start.");
-}
-
-}  // namespace
-
 template <class Real>
 StepReport SphSolver<Real>::start() {
   check_nobody_came();
@@ -30,25 +17,21 @@ StepReport SphSolver<Real>::start() {
 
 template <class Real>
 StepReport SphSolver<Real>::start_as_given() {
-  const InitialCase& initial = case_.fluid.initial;
-  const std::string* const velocity[3] = {&initial.u, &initial.v, &initial.w};
+  const InitialState initial(case_);
   std::vector<Real> state = state_.download();
   for (int axis = 0; axis < 3; ++axis) {
-    if (velocity[axis]->empty() || (case_.dimensions == 2 && axis == 1)) continue;
-    const Expression expression(*velocity[axis]);
+    if (!initial.has_velocity(axis) || (case_.dimensions == 2 && axis == 1)) continue;
     for (int i = 0; i < count_; ++i)
-      state[(first_.velocity + axis) * stride_ + i] =
-          static_cast<Real>(finite_at(expression, place_of(state, i), std::string(1, "uvw"[axis])));
+      state[(first_.velocity + axis) * stride_ + i] = static_cast<Real>(initial.velocity(axis, place_of(state, i)));
   }
   for (int axis = 0; axis < 3; ++axis)
     for (int i = 0; i < count_; ++i) state[(first_.velocity + axis) * stride_ + i] += static_cast<Real>(case_.fluid.current[axis]);
-  if (!initial.pressure.empty()) {
+  if (initial.has_pressure()) {
     // of water that fills the volume that each particle was given
-    const Expression expression(initial.pressure);
     const double stiffness = case_.fluid.density * discretisation_.sound_speed * discretisation_.sound_speed;
     const std::vector<std::uint32_t> id = id_.download();
     for (int i = 0; i < count_; ++i) {
-      const double compression = compression_at(finite_at(expression, place_of(state, i), "pressure") / stiffness, case_);
+      const double compression = compression_at(initial.pressure(place_of(state, i)) / stiffness, case_);
       const double volume = volumes_[id[i]];
       component(state, "compression")[i] = static_cast<Real>(compression);
       component(state, "volume")[i] = static_cast<Real>(volume);

@@ -71,8 +71,112 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"InsideOut",
               "{min: [4, 0], max: [6, 1]}",
               "{min: [6, 0], max: [4, 1]}",
-              {"fluid/damping/0/box/max is [4, 1]; it must be greater than"}}),
+              {"fluid/damping/0/box/max is [4, 1]; it must be greater than"}},
+        Fault{"AbsorptionWithoutAGauge", "period: 1.2", "period: 1.2, absorption: {}", {"waves/absorption/gauge is missing"}},
+        Fault{"AbsorptionByNoGaugeAtAll",
+              "period: 1.2",
+              "period: 1.2, absorption: {gauge: front}",
+              {"case.yaml:17: bodies/0/prescribed/waves/absorption/gauge is front, which is no wave gauge of the case; it has none"}},
+        Fault{"AbsorptionByAnUnknownGauge",
+              "period: 1.2}",
+              "period: 1.2, absorption: {gauge: front}}\ninstruments: {wave_gauges: [{name: before, position: [0.4]}]}",
+              {"case.yaml:17: bodies/0/prescribed/waves/absorption/gauge is front", "name one of before"}},
+        Fault{"AbsorptionFromBehind",
+              "period: 1.2}",
+              "period: 1.2, absorption: {gauge: front}}\ninstruments: {wave_gauges: [{name: front, position: [0.05]}]}",
+              {"case.yaml:17: bodies/0/prescribed/waves/absorption/gauge is front, which stands 0.15 m behind the paddle's front"}},
+        Fault{"AbsorptionBehindAReversedPaddle",
+              "period: 1.2}",
+              "period: 1.2, reversed: true, absorption: {gauge: front}}\ninstruments: {wave_gauges: [{name: front, position: [0.4]}]}",
+              {"absorption/gauge is front, which stands 0.3 m behind the paddle's front"}},
+        Fault{"AbsorbingFlap",
+              "period: 1.2",
+              "period: 1.2, direction: pitch, absorption: {gauge: front}",
+              {"waves/absorption is for pistons; leave it out"}}),
     [](const testing::TestParamInfo<Fault>& info) { return info.param.name; });
+
+TEST(Absorption, IsForTanksThatStand) {
+  const std::string moving = replaced(sound, "  box: {size: [6, 1]}",
+                                      "  box: {size: [6, 1]}\n  motion: prescribed\n  prescribed: {harmonics: [{direction: surge, "
+                                      "amplitude: 0.1, frequency: 1}]}");
+  const std::string message = error_of(replaced(moving, "period: 1.2", "period: 1.2, absorption: {gauge: front}"));
+  EXPECT_TRUE(contains(message, "bodies/0/prescribed/waves/absorption is given, and tank/motion is not fixed")) << message;
+}
+
+const char* const at_start = R"(dimensions: 2
+duration: 2
+fluid:
+  spacing: 0.05
+  fill: [{box: {min: [0, 0], max: [6, 0.4]}}]
+  initial:
+    waves: {kind: linear, depth: 0.4, height: 0.02, wavelength: 3}
+tank:
+  box: {size: [6, 1]}
+)";
+
+const char* const linear = "waves: {kind: linear, depth: 0.4, height: 0.02, wavelength: 3}";
+
+class BrokenStart : public testing::TestWithParam<Fault> {};
+
+TEST_P(BrokenStart, IsRefusedInOneClearSentence) { expect_refused(at_start, GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BrokenStart,
+    testing::Values(
+        Fault{"NeitherLengthNorPeriod", ", wavelength: 3", "", {"case.yaml:7: fluid/initial/waves/wavelength is missing"}},
+        Fault{"LengthAndPeriod", "wavelength: 3", "wavelength: 3, period: 1", {"case.yaml:7: fluid/initial/waves/period is given beside"}},
+        Fault{"SolitaryOfALength", "linear", "solitary", {"case.yaml:7: fluid/initial/waves/wavelength is not for a solitary wave"}},
+        Fault{"StandingOfSecondOrder", "kind: linear", "kind: stokes_2, standing: true", {"fluid/initial/waves/standing is of linear"}},
+        Fault{"Upwards",
+              "wavelength: 3",
+              "wavelength: 3, direction: [0, 1]",
+              {"fluid/initial/waves/direction is [0, 0, 1]; it must be level"}},
+        Fault{"AsHighAsMcCowan",
+              linear,
+              "waves: {kind: solitary, depth: 0.4, height: 0.32}",
+              {"case.yaml:7: fluid/initial/waves/height is 0.32 m, with which they would break: higher than McCowan's 0.78 of the depth, "
+               "0.312 m; make it less"}},
+        Fault{"AsSteepAsMiche",
+              "height: 0.02, wavelength: 3",
+              "height: 0.1, wavelength: 0.5",
+              {"case.yaml:7: fluid/initial/waves/height is 0.1 m, with which they would break: higher than Miche's 0.142 L tanh kd, "
+               "0.07099"}},
+        Fault{"BesideAnExpression",
+              linear,
+              "waves: {kind: linear, depth: 0.4, height: 0.02, wavelength: 3}\n    u: x",
+              {"case.yaml:8: fluid/initial/u is given beside fluid/initial/waves"}},
+        Fault{"Settling",
+              "tank:",
+              "numerics: {packing: {settling: 1}}\ntank:",
+              {"case.yaml:8: numerics/packing/settling is above 0, with which the water comes to rest, and fluid/initial/waves is given"}},
+        Fault{"TwoLevels",
+              "max: [6, 0.4]}}]",
+              "max: [3, 0.4]}}, {box: {min: [3, 0], max: [6, 0.3]}}]",
+              {"fluid/fill/1 is filled to another level than fluid/fill/0"}},
+        Fault{"SidewaysGravity",
+              "duration: 2",
+              "duration: 2\ngravity: [9.81, 0]",
+              {"fluid/initial/waves is given, which is for gravity along −z"}},
+        Fault{"ElevationOfHeight",
+              linear,
+              "elevation: 0.1*z",
+              {"case.yaml:7: fluid/initial/elevation: \"0.1*z\" is no expression of x and y"}},
+        Fault{
+            "ElevationThatIsNone", linear, "elevation: 0.1*sin(", {"case.yaml:7: fluid/initial/elevation: \"0.1*sin(\" is no expression"}}),
+    [](const testing::TestParamInfo<Fault>& info) { return info.param.name; });
+
+TEST(WavesAtTheStart, AreReadAndWritten) {
+  EXPECT_EQ(error_of(at_start), "(no error)");
+  for (const std::string& waves :
+       {std::string(linear), std::string("waves: {kind: solitary, depth: 0.4, height: 0.1, direction: [-1, 0], crest: -2}"),
+        std::string("waves: {kind: linear, depth: 0.4, height: 0.02, period: 1.5, standing: true}"),
+        std::string("waves: {kind: stokes_2, depth: 0.4, height: 0.02, period: 1.5}"), std::string("elevation: 0.01*cos(x)")}) {
+    const Case read = read_case_text(replaced(at_start, linear, waves), "case.yaml", {});
+    const std::string written = write_case(read);
+    EXPECT_EQ(write_case(read_case_text(written, "again.yaml", {})), written) << waves;
+    EXPECT_EQ(read.fluid.initial.waves.has_value(), read.fluid.initial.elevation.empty()) << waves;
+  }
+}
 
 TEST(Waves, AreReadAndWritten) {
   EXPECT_EQ(error_of(sound), "(no error)");
@@ -82,8 +186,10 @@ TEST(Waves, AreReadAndWritten) {
             "{kind: focused, depth: 0.4, height: 0.1, peak_period: 1.5, focus: {distance: 3, time: 12}, spectrum: pierson_moskowitz}"),
         std::string("{kind: solitary, depth: 0.4, height: 0.1, reversed: true}"),
         std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, direction: pitch, hinge: -0.2}"),
-        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, order: 2}")}) {
-    const Case read = read_case_text(replaced(sound, regular, waves), "case.yaml", {});
+        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, order: 2}"),
+        std::string("{kind: regular, depth: 0.4, height: 0.1, period: 1, absorption: {gauge: front, recall: 6, reach: 0.05}}")}) {
+    const Case read =
+        read_case_text(replaced(sound, regular, waves) + "instruments: {wave_gauges: [{name: front, position: [0.4]}]}\n", "case.yaml", {});
     ASSERT_TRUE(read.bodies[0].rigid.prescribed.waves) << waves;
     const Case again = read_case_text(write_case(read), "again.yaml", {});
     EXPECT_EQ(write_case(again), write_case(read)) << waves;

@@ -148,6 +148,98 @@ TEST_F(Waves, StillWaterInAZoneIsAsStill) {
   EXPECT_NEAR(with.energies().potential, without.energies().potential, 1e-3 * without.energies().potential);
 }
 
+// A short flume that reflects all: with what the paddle sends there stand waves of twice that height, and no more. (Without absorption
+// they have 14.9 J/m.)
+TEST_F(Waves, ThatComeBackAreTakenAwayByThePaddle) {
+  const double height = 0.04, length = 2.7, end = 9;
+  Case scene = flume(0.5 + length, 0.04);
+  scene.fluid.fill = {Box{Vector3d(0.5, 0, 0), Vector3d(0.5 + length, 0, depth)}};
+  scene.bodies[0].shape = Box{Vector3d(0.4, 0, 0), Vector3d(0.5, 0, 0.6)};
+  scene.bodies[0].rigid.prescribed.waves->height = height;
+  scene.bodies[0].rigid.prescribed.waves->absorption = WaveAbsorptionCase{"front", std::nullopt, std::nullopt};
+  scene.instruments.wave_gauges = {{"front", Vector3d(0.7, 0, 0)}};
+  scene.instruments.rate = 20;
+  Simulation absorbs(scene);
+  Samples samples = run_to(absorbs, 7);
+  const std::string half_way = snapshot(absorbs);
+  append(samples, run_to(absorbs, end));
+  double kinetic = 0;
+  for (const EnergySample& sample : samples.energies)
+    if (sample.time > end - 1.2) kinetic = std::max(kinetic, sample.kinetic);
+  const double expected = 0.25 * 1000 * 9.81 * height * height * length;  // of a standing wave, when it is level
+  std::printf("kinetic energy at most %.3f J/m, %.3f J/m by linear theory\n", kinetic, expected);
+  EXPECT_NEAR(kinetic, expected, 0.25 * expected);
+  // the paddle goes as it should plus what it absorbs, and says how fast
+  double farthest = 0;
+  const double stroke = 0.5 * height / 1.245;  // of linear theory for kd = 1.3
+  for (std::size_t k = 1; k + 1 < samples.poses.size(); ++k) {
+    const auto place = [&](std::size_t n) { return samples.poses[n].states[1].position.x(); };
+    farthest = std::max(farthest, std::abs(place(k) - place(0)));
+    EXPECT_NEAR((place(k + 1) - place(k - 1)) / 0.1, samples.poses[k].states[1].velocity.x(), 0.01);
+  }
+  EXPECT_GT(farthest, 1.1 * stroke);
+  EXPECT_LT(farthest, 4 * stroke);
+  // from its snapshot it goes on to the same bits
+  Simulation again(scene);
+  write(path("half_way"), half_way);
+  again.restore(path("half_way"));
+  run_to(again, end);
+  EXPECT_TRUE(snapshot(again) == snapshot(absorbs)) << "the snapshots differ";
+}
+
+// In a tank as long as half the wave: it swings with the period of linear theory.
+TEST_F(Waves, ThatStandAtTheStartSwingAsTheoryHasIt) {
+  Case scene = box_case(Vector3d(1, 0, 0.6), depth, 0.025);
+  scene.numerics.artificial_viscosity = 0.005;
+  scene.numerics.walls.slip = Slip::free_slip;
+  InitialWaveCase wave;
+  wave.depth = depth;
+  wave.height = 0.03;
+  wave.wavelength = 2.0;
+  wave.standing = true;
+  scene.fluid.initial.waves = wave;
+  scene.instruments.wave_gauges = {{"left", Vector3d(0.05, 0, 0)}, {"right", Vector3d(0.95, 0, 0)}};
+  scene.instruments.rate = 100;
+  Simulation simulation(scene);
+  const Samples samples = run_to(simulation, 3);
+  const auto swing = [&](std::size_t k) { return samples.levels[k].levels[0] - samples.levels[k].levels[1]; };
+  EXPECT_NEAR(swing(0), 0.03 * std::cos(0.05 * M_PI), 0.05 * 0.03);
+  std::vector<double> crossings;
+  for (std::size_t k = 1; k < samples.levels.size(); ++k)
+    if ((swing(k - 1) > 0) != (swing(k) > 0)) crossings.push_back(samples.levels[k].time - 0.01 * swing(k) / (swing(k) - swing(k - 1)));
+  ASSERT_GE(crossings.size(), 4u);
+  const double period = 2 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  const double expected = 2 * M_PI / std::sqrt(9.81 * M_PI * std::tanh(M_PI * depth));
+  std::printf("period %.4f s, %.4f s by linear theory\n", period, expected);
+  EXPECT_NEAR(period / expected, 1, 0.02);
+}
+
+// Of a solitary wave the crest goes at √(g(d + H)) and keeps its height; the pressure at the floor is nearly that of what stands over it.
+TEST_F(Waves, ThatAreAloneAtTheStartGoAsFastAsTheyShould) {
+  Case scene = box_case(Vector3d(7, 0, 0.7), depth, 0.04);
+  scene.numerics.artificial_viscosity = 0.005;
+  scene.numerics.walls.slip = Slip::free_slip;
+  InitialWaveCase wave;
+  wave.kind = InitialWaveKind::solitary;
+  wave.depth = depth;
+  wave.height = 0.12;
+  wave.crest = 2;
+  scene.fluid.initial.waves = wave;
+  scene.instruments.wave_gauges = {{"start", Vector3d(2, 0, 0)}, {"near", Vector3d(3, 0, 0)}, {"far", Vector3d(5, 0, 0)}};
+  scene.instruments.rate = 100;
+  Simulation simulation(scene);
+  const Samples samples = run_to(simulation, 1.8);
+  EXPECT_NEAR(samples.levels[0].levels[0] - depth, 0.12, 0.05 * 0.12);
+  double highest[3] = {}, when[3] = {};
+  for (const LevelSample& sample : samples.levels)
+    for (int g = 1; g < 3; ++g)
+      if (sample.levels[g] > highest[g]) highest[g] = sample.levels[g], when[g] = sample.time;
+  const double celerity = 2 / (when[2] - when[1]);
+  std::printf("crests %.4f m and %.4f m, %.3f m/s\n", highest[1] - depth, highest[2] - depth, celerity);
+  EXPECT_NEAR(highest[2] - depth, 0.12, 0.1 * 0.12);  // three spacings high: it loses some on the way
+  EXPECT_NEAR(celerity / std::sqrt(9.81 * (depth + 0.12)), 1, 0.03);
+}
+
 TEST_F(Waves, ThatCannotBeAreTold) {
   Case scene = flume(6, 0.05);
   scene.fluid.damping = {zone(0, 2, 8)};

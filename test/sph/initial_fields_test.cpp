@@ -12,7 +12,7 @@ Case vortices() {
   scene.fluid.sound_speed = 10;
   scene.numerics.packing.iterations = 0;
   scene.numerics.negative_pressure = NegativePressure::allowed;
-  scene.fluid.initial = {"sin(2*pi*x)*cos(2*pi*z)", "", "-cos(2*pi*x)*sin(2*pi*z)", "250*(cos(4*pi*x) + cos(4*pi*z))"};
+  scene.fluid.initial = {"sin(2*pi*x)*cos(2*pi*z)", "", "-cos(2*pi*x)*sin(2*pi*z)", "250*(cos(4*pi*x) + cos(4*pi*z))", "", std::nullopt};
   return scene;
 }
 

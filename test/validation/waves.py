@@ -4,8 +4,9 @@
 waves.py WAVETANK_RUN DIRECTORY [PERIOD,HEIGHT,SPACING,ORDER]...
 
 Water 0.4 m deep, a flume of three wavelengths and a damping zone of one and a quarter more. Gauges an eighth of a wavelength apart from one wavelength on; of
-their records from the time at which the waves are there the harmonics of the period, by least squares over whole periods. Told are the height (twice the amplitude of the
-first harmonic that comes, fitted over the gauges), the loss of it a wavelength, the wavelength that its phases have over that of linear theory and of Stokes' third order for the
+their records from the time at which the waves are there the heights from trough to crest, period by period, and the harmonics of the period, by least squares over whole periods.
+Told are the height a wavelength from the paddle and, by its decay over the gauges, at the paddle; twice the amplitude of the first harmonic that comes, in the middle of the gauges (of steep
+waves it is less than the height, of which the third harmonic is a part); the loss a wavelength, the wavelength that its phases have over that of linear theory and of Stokes' third order for the
 height found, the reflected wave, and of the second harmonic
 what travels by itself; and of the velocity at mid-depth under the first gauge what it is off linear theory by, which makes of each of the gauge's harmonics
 a n ω cosh k z / sinh k d: root mean squares over that of theory, without the means (in a closed flume the mean brings back what waves carry).
@@ -94,6 +95,13 @@ def harmonics(times, levels, period):
     return fit[1] + 1j * fit[2], fit[3] + 1j * fit[4]
 
 
+def heights(times, levels, period):
+    """From trough to crest, m, of each gauge the mean over whole periods."""
+    step = int(round(period / (times[1] - times[0])))
+    whole = len(times) // step * step
+    return numpy.ptp(levels[:whole].reshape(-1, step, levels.shape[1]), axis=1).mean(axis=0)
+
+
 def off_linear_theory(times, level, velocity, period):
     """Of a velocity at mid-depth under a gauge, both over whole periods: root mean square of the difference over that of theory."""
     theory = numpy.zeros_like(times)
@@ -117,13 +125,16 @@ def measured(times, levels, velocities, gauges, period):
     # incident and reflected, with the wave number found; bound and free of the second harmonic
     waves = numpy.linalg.lstsq(numpy.array([numpy.exp(1j * k_found * x), numpy.exp(-1j * k_found * x)]).T, first, rcond=None)[0]
     twice = numpy.linalg.lstsq(numpy.array([numpy.exp(2j * k_found * x), numpy.exp(1j * free * x)]).T, second, rcond=None)[0]
-    decay = -numpy.polyfit(x, numpy.log(abs(first)), 1)[0] * 2 * math.pi / k
+    length = 2 * math.pi / k
+    slope, at_paddle = numpy.polyfit(x, numpy.log(heights(times[wanted], levels[wanted], period)), 1)
     return {
         "velocity": off_linear_theory(times[wanted], levels[wanted][:, 0], velocities[wanted], period),
-        "height": 2 * abs(waves[0]),
+        "height": math.exp(at_paddle + slope * length),
+        "height at the paddle": math.exp(at_paddle),
+        "first harmonic": 2 * abs(waves[0]),
         "length": k / k_found - 1,
         "length of third order": third_order(omega, abs(waves[0])) / k_found - 1,
-        "loss": decay,
+        "loss": -slope * length,
         "reflected": abs(waves[1] / waves[0]),
         "free": 2 * abs(twice[1]),
     }
@@ -131,8 +142,7 @@ def measured(times, levels, velocities, gauges, period):
 
 def main(program, directory, cases):
     os.makedirs(directory, exist_ok=True)
-    print("| T, s | H, m | order | Δx, m | height | wavelength over linear | over third-order theory | loss a wavelength | reflected | free second harmonic | velocity off linear theory |\n"
-          "|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| T, s | H, m | order | Δx, m | height at the paddle | a wavelength on | first harmonic | wavelength over linear | over third-order theory | loss a wavelength | reflected | free second harmonic | velocity off linear theory |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for text in cases:
         period, height, spacing, order = (float(number) for number in text.split(","))
         base = os.path.join(directory, "waves_" + text.replace(",", "_"))
@@ -145,13 +155,15 @@ def main(program, directory, cases):
         times, levels, velocities = levels_of(base + ".bag")
         found = measured(times, levels, velocities, gauges, period)
         print(
-            "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% | %.1f %% |"
+            "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %+.1f %% | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% | %.1f %% |"
             % (
                 period,
                 height,
                 order,
                 spacing,
+                100 * (found["height at the paddle"] / height - 1),
                 100 * (found["height"] / height - 1),
+                100 * (found["first harmonic"] / height - 1),
                 100 * found["length"],
                 100 * found["length of third order"],
                 100 * found["loss"],

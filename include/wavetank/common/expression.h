@@ -6,12 +6,12 @@
 
 namespace wavetank {
 
-/// A number as a function of a place or of time or of both, given as text: of x, y and z, of t, or of all four, with + − * / ^,
-/// comparisons, `? :`, pi, and sin, cos, tan, exp, ln, log10, sqrt, abs, min, max and the like (muparser's). Not to be shared between
-/// threads.
+/// A number as a function of a place or of time or of both, given as text: of x, y and z (on a plan x and y alone), of t, or of all four,
+/// with + − * / ^, comparisons, `? :`, pi, and sin, cos, tan, exp, ln, log10, sqrt, abs, min, max and the like (muparser's). Not to be
+/// shared between threads.
 class Expression {
  public:
-  enum class Of { place, time, time_and_place };
+  enum class Of { place, plan, time, time_and_place };
 
   /// Throws Error, which says what is wrong and at which character, for text that is none.
   explicit Expression(const std::string& text, Of of = Of::place);
@@ -26,6 +26,8 @@ class Expression {
   double at(double time, const Eigen::Vector3d& place) const;
   /// Whether x, y or z is in it.
   bool depends_on_place() const;
+  /// What it may be of, for messages.
+  static const char* variables(Of of);
 
  private:
   struct Parser;

@@ -86,6 +86,14 @@ class RigidWorld {
   void command_joint(std::size_t joint, double time, double value);
   /// At present, of the tank and then of the bodies, in the case's order.
   std::vector<MooringState> moorings() const;
+  /// Whether it is a paddle that takes away the waves which come back to it.
+  bool absorbs(std::size_t owner) const;
+  /// What the gauge of such a paddle shows at the beginning of a step, m. Throws Error for another body, or a level that is not finite.
+  void see_waves(std::size_t owner, double time, double level);
+  /// How much of the way that it may take for that it has taken, 0 to 1.
+  double absorption_taken(std::size_t owner) const;
+  /// Where a prescribed motion has an owner at a time, whatever it has absorbed. Throws Error for one that is not prescribed.
+  RigidState planned(std::size_t owner, double time) const;
 
   std::size_t joint_count() const;
   JointState joint_state(std::size_t joint) const;

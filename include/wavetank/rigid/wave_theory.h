@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "wavetank/common/water_waves.h"
 #include "wavetank/scene/case.h"
 
 namespace wavetank {
-
-/// Wave number of small waves over a level floor, 1/m: the root of ω² = g k tanh kd. All greater than 0, in SI units.
-double wave_number(double angular_frequency, double depth, double gravity);
 
 /// Amplitude of the waves far from a paddle over that of its displacement at the still level (Biésel and Suquet 1951; Dean and Dalrymple,
 /// Water Wave Mechanics, ch. 6). `hinge`: height over the floor that a flap turns about, m, also below it (negative); none = a piston.

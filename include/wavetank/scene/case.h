@@ -38,10 +38,31 @@ struct FloodFill {
 
 using FillRegion = std::variant<Box, FloodFill>;
 
-/// The water's velocity and pressure at the start, each an expression of x, y, z (wavetank::Expression); empty: at rest, and hydrostatic.
+enum class InitialWaveKind {
+  linear,    ///< of small waves
+  stokes_2,  ///< regular waves to the second order of their steepness
+  solitary
+};
+
+/// Waves by theory that are there at the start: the surface, velocity and pressure together.
+struct InitialWaveCase {
+  InitialWaveKind kind = InitialWaveKind::linear;
+  double depth = 0;                        ///< m, of still water over a level floor
+  double height = 0;                       ///< m, from trough to crest; of a solitary one the crest's over the still level
+  std::optional<double> wavelength;        ///< m; exactly one of it and the period, unless solitary
+  std::optional<double> period;            ///< s
+  bool standing = false;                   ///< a standing wave, at rest and highest
+  Vector3d direction = Vector3d::UnitX();  ///< in which they go, level; any length but 0
+  double crest = 0;                        ///< m along the direction, from the case's origin
+};
+
+/// The water at the start: its free surface, velocity and pressure, each an expression (wavetank::Expression), or waves by theory, which
+/// give all of them. Empty: level, at rest, and hydrostatic.
 struct InitialCase {
-  std::string u, v, w;   ///< m/s
-  std::string pressure;  ///< Pa
+  std::string u, v, w;                   ///< m/s, of x, y, z
+  std::string pressure;                  ///< Pa, likewise
+  std::string elevation;                 ///< m, of x and y: of the free surface over the level that is filled to
+  std::optional<InitialWaveCase> waves;  ///< then none of the others is given
 };
 
 /// A box in which the water's velocity is damped, so that waves do not come back from behind it.
@@ -136,6 +157,13 @@ struct WaveRecordCase {
   double distance = 0;  ///< m, from the paddle at rest to where it is to be seen
 };
 
+/// Of the waves that come back to a piston, by a gauge before it.
+struct WaveAbsorptionCase {
+  std::string gauge;             ///< of instruments/wave_gauges
+  std::optional<double> recall;  ///< s, within which the paddle comes back to its middle; none = four periods
+  std::optional<double> reach;   ///< m, farthest from where the theory has the paddle; none = what the tank leaves
+};
+
 /// Waves by theory, that a prescribed body makes as a piston (surge, sway, stroke) or a flap (pitch, angle).
 struct WaveCase {
   WaveKind kind = WaveKind::regular;
@@ -155,6 +183,7 @@ struct WaveCase {
   WaveFocusCase focus;
   WaveRecordCase record;
   std::optional<double> rise;  ///< s, from rest to the full motion; none = one period, or peak period
+  std::optional<WaveAbsorptionCase> absorption;
 };
 
 struct PrescribedCase {

@@ -24,6 +24,9 @@ Vector3d upward(const Case& read);
 
 Top top_of(const Case& read);
 
+/// Where the waves of a piston go, a unit vector.
+Vector3d piston_way(const WaveCase& wave, const PrescribedCase& prescribed);
+
 /// The height of the box's lowest corner over the origin, along `up`, m.
 double lowest_of(const Box& box, const Vector3d& up);
 /// Likewise of its highest.
