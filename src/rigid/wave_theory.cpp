@@ -7,6 +7,7 @@
 #include <random>
 #include <unsupported/Eigen/FFT>
 
+#include "uniform_numbers.h"
 #include "wave_maker.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/record_file.h"
@@ -18,9 +19,6 @@ constexpr double lowest_frequency = 0.5, highest_frequency = 3.0;  // of a spect
 constexpr double least_share = 1e-3;                               // of the greatest amplitude: less of a record's is left out,
 constexpr double highest_recorded = 5.0;                           // and what is beyond so many times its frequency
 constexpr std::size_t fewest_lines = 8;                            // of a record
-
-/// In [0, 1), of the generator's own bits: what distributions make of them is each library's choice.
-double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
 std::vector<WaveComponent> spectral_components(const WaveCase& wave) {
   const double peak = 1.0 / wave.peak_period, enhancement = wave.spectrum == WaveSpectrum::jonswap ? wave.peak_enhancement : 1.0;

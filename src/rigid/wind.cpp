@@ -3,13 +3,12 @@
 #include <cmath>
 #include <random>
 
+#include "uniform_numbers.h"
+
 namespace wavetank {
 namespace {
 
 constexpr int components = 64;
-const double pi = std::acos(-1.0);
-
-double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
 }  // namespace
 
@@ -18,7 +17,7 @@ Wind::Wind(const WindCase& wind) : wind_(wind) {
   std::mt19937_64 generator(static_cast<std::uint64_t>(wind.seed));
   for (int k = 0; k < components; ++k) {
     const double below = (k + uniform(generator)) / components;  // of the energy, at lower frequencies
-    gusts_.push_back({std::tan(0.5 * pi * below) / wind.gust_time, 2 * pi * uniform(generator)});
+    gusts_.push_back({std::tan(0.5 * M_PI * below) / wind.gust_time, 2 * M_PI * uniform(generator)});
   }
 }
 

@@ -286,9 +286,6 @@ void check_openings(const Case& read, const Setting& root) {
     const Clash clash = [&](const std::string& key, const std::string& text) {
       throw Error(nearest_setting(root, join_path(path, key)).place.describe() + ": " + join_path(path, key) + " is " + text);
     };
-    if (read.numerics.walls.method == WallMethod::ghost)
-      clash("kind",
-            word_of(opening.kind) + ", and numerics/walls/method is ghost, whose mirrors know no openings; choose boundary_integral");
     if (read.tank.motion != Motion::fixed)
       clash("kind", word_of(opening.kind) + ", and tank/motion is not fixed; openings are for tanks that stand");
     check_return(read, opening, clash);

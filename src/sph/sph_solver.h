@@ -44,7 +44,8 @@ class SphSolver final : public Solver, private StepEngine {
   void let_in(const NewParticles& particles) override;
   void set_drains(const std::vector<Drain>& drains) override;
   void set_zones(const std::vector<ImposedZone>& zones) override;
-  std::optional<ThinWall> thinnest_wall() const override { return case_walls_.thin().thinnest; }
+  /// Of ghosts none: their tanks are convex, and what stands between two pockets hides nothing.
+  std::optional<ThinWall> thinnest_wall() const override { return ghosts_ ? std::nullopt : case_walls_.thin().thinnest; }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override;
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;

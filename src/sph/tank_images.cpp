@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tables/device_sizes.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -11,13 +12,82 @@ namespace {
 
 constexpr double parallel = 1e-6;       // of a cosine, and of a sine
 constexpr double flat_distance = 1e-3;  // of the spacing: planes nearer together are one
+constexpr double flush = 0.25;          // of the spacing: a gap whose edge is so near to another plane reaches up to that
 
 /// One thing that makes an image: a mirror or a shift by a period.
 struct Generator {
   bool mirror = false;
   TankPlane plane;                    ///< of the mirror, or of the end near which the shifted particles are seen
   Vector3d shift = Vector3d::Zero();  ///< m
+  std::vector<PlaneGap> gaps;         ///< of the mirror
 };
+
+double distance_from(const TankPlane& plane, const Vector3d& point) { return plane.normal.dot(point) + plane.offset; }
+
+TankPlane plane_through(const Vector3d& point, const Vector3d& normal) { return {normal, -normal.dot(point)}; }
+
+/// The sides of an opening and of its pocket, with normals out of it; in 2-D the lower and the upper one.
+std::vector<TankPlane> sides_of(const Opening& opening) {
+  const std::size_t count = opening.outline.size();
+  if (count == 2) return {plane_through(opening.outline[0], -opening.up), plane_through(opening.outline[1], opening.up)};
+  std::vector<TankPlane> sides;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3d along = opening.outline[(k + 1) % count] - opening.outline[k];
+    sides.push_back(plane_through(opening.outline[k], along.cross(opening.normal).normalized()));
+  }
+  return sides;
+}
+
+/// In an opening's pocket, its sides and its front included.
+bool in_pocket(const Opening& opening, const Vector3d& point, double tolerance) {
+  const double behind = -opening.normal.dot(point - opening.centre);
+  if (behind < -tolerance || behind > opening.pocket + tolerance) return false;
+  const std::vector<TankPlane> sides = sides_of(opening);
+  return std::all_of(sides.begin(), sides.end(), [&](const TankPlane& side) { return distance_from(side, point) <= tolerance; });
+}
+
+bool in_a_pocket(const std::vector<Opening>& openings, const Vector3d& point, double tolerance) {
+  return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) { return in_pocket(opening, point, tolerance); });
+}
+
+bool is_of_pocket(const std::vector<Opening>& openings, const Facet& facet, double tolerance) {
+  return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
+    return std::all_of(std::begin(facet.corners), std::end(facet.corners),
+                       [&](const Vector3d& corner) { return in_pocket(opening, corner, tolerance); });
+  });
+}
+
+/// What an opening leaves open of a plane: if it is in the plane, its outline, and if it is in a wall at an angle to it, all that lies
+/// behind that wall. `others`: planes, and ends that repeat themselves, beyond which there is no water but that behind openings; those
+/// before `own` are mirrored in the plane with all that is behind them, so that one of two openings that meet in an edge fills the corner.
+void add_gap(const TankPlane& plane, const Opening& opening, const std::vector<TankPlane>& others, std::size_t own, double spacing,
+             std::vector<PlaneGap>& gaps) {
+  PlaneGap gap;
+  gap.plane = plane;
+  const double cosine = plane.normal.dot(opening.normal);
+  if (cosine > 1.0 - parallel && std::abs(distance_from(plane, opening.centre)) < 10 * flat_distance * spacing) {
+    gap.centre = opening.centre;
+    if (opening.shape == Opening::Shape::disc) {
+      gap.radius = 0.5 * opening.width;
+    } else {
+      for (TankPlane side : sides_of(opening)) {
+        const Vector3d at = -side.offset * side.normal + (opening.centre - side.normal.dot(opening.centre) * side.normal);
+        const auto other = std::find_if(others.begin(), others.end(), [&](const TankPlane& candidate) {
+          return candidate.normal.dot(side.normal) < -1.0 + parallel && std::abs(distance_from(candidate, at)) < flush * spacing;
+        });
+        if (other != others.end()) side.offset -= 2 * flush * spacing;  // nothing before the other plane is near that edge
+        if (other == others.end() || other < others.begin() + static_cast<std::ptrdiff_t>(own)) gap.edges.push_back(side);
+      }
+    }
+    gaps.push_back(gap);
+  } else if (std::abs(cosine) > parallel && std::abs(cosine) < 1.0 - parallel) {
+    const Vector3d along = opening.normal - cosine * plane.normal;
+    const double size = along.norm();
+    // of a point of the plane, x = x∥ − o n: its distance from the opening's plane is n'·x − n'·c
+    gap.edges.push_back({along / size, (-cosine * plane.offset - opening.normal.dot(opening.centre)) / size});
+    gaps.push_back(gap);
+  }
+}
 
 std::string text(const Vector3d& v) {
   const auto rounded = [](double value) {
@@ -43,6 +113,7 @@ void add_images(const std::vector<Generator>& generators, std::size_t next, cons
       image.offset = reflection * so_far.offset - 2.0 * generator.plane.offset * n;
       image.matrix = reflection * so_far.matrix;
       image.mirrored = true;
+      image.gaps.insert(image.gaps.end(), generator.gaps.begin(), generator.gaps.end());
       image.velocity_matrix = slip == Slip::no_slip ? Eigen::Matrix3d(-Eigen::Matrix3d::Identity()) : image.matrix;
     } else {
       image.offset += generator.shift;
@@ -55,14 +126,15 @@ void add_images(const std::vector<Generator>& generators, std::size_t next, cons
 
 }  // namespace
 
-std::vector<TankPlane> tank_planes(const Layout& layout, const std::string& chosen, const std::string& instead) {
+std::vector<TankPlane> tank_planes(const Layout& layout, const std::vector<Opening>& openings, const std::string& chosen,
+                                   const std::string& instead) {
   std::vector<TankPlane> planes;
   const double tolerance = flat_distance * layout.spacing;
   for (const Facet& facet : layout.facets) {
-    if (facet.owner != 0) continue;
+    if (facet.owner != 0 || is_of_pocket(openings, facet, tolerance)) continue;
     const TankPlane plane{-facet.normal, facet.normal.dot(facet.plane_point)};
     const bool known = std::any_of(planes.begin(), planes.end(), [&](const TankPlane& other) {
-      return other.normal.dot(plane.normal) > 1.0 - parallel && std::abs(other.normal.dot(facet.plane_point) + other.offset) < tolerance;
+      return other.normal.dot(plane.normal) > 1.0 - parallel && std::abs(distance_from(other, facet.plane_point)) < tolerance;
     });
     if (!known) planes.push_back(plane);
   }
@@ -75,7 +147,7 @@ std::vector<TankPlane> tank_planes(const Layout& layout, const std::string& chos
     }
     for (const Facet& facet : layout.facets) {
       for (const Vector3d& corner : facet.corners) {
-        if (plane.normal.dot(corner) + plane.offset < -10 * tolerance)
+        if (distance_from(plane, corner) < -10 * tolerance && !in_a_pocket(openings, corner, tolerance))
           throw Error(chosen + ", which needs a convex tank, but the wall at " + text(corner) + " m lies behind another: choose " +
                       instead + ".");
       }
@@ -107,8 +179,11 @@ std::vector<TankImage> tank_images(const Case& scene, const Layout& layout, cons
     }
   }
   if (scene.numerics.walls.method == WallMethod::ghost) {
-    const std::vector<TankPlane> planes = tank_planes(layout);
-    for (const TankPlane& plane : planes) {
+    const std::vector<TankPlane> planes = tank_planes(layout, layout.openings);
+    std::vector<TankPlane> borders = planes;
+    for (const Generator& end : generators) borders.push_back({end.plane.normal, end.plane.offset - end.plane.normal.dot(d.origin)});
+    for (std::size_t own = 0; own < planes.size(); ++own) {
+      const TankPlane& plane = planes[own];
       for (const TankPlane& other : planes) {
         if (plane.normal.dot(other.normal) < -0.5 && plane.offset + other.offset < 2.0 * d.support)
           throw Error("numerics/walls/method is ghost, but the tank's walls are only " + std::to_string(plane.offset + other.offset) +
@@ -117,6 +192,12 @@ std::vector<TankImage> tank_images(const Case& scene, const Layout& layout, cons
       Generator mirror;
       mirror.mirror = true;
       mirror.plane = relative(plane);
+      for (const Opening& opening : layout.openings) add_gap(plane, opening, borders, own, layout.spacing, mirror.gaps);
+      for (PlaneGap& gap : mirror.gaps) {
+        gap.plane = relative(gap.plane);
+        gap.centre -= d.origin;
+        for (TankPlane& edge : gap.edges) edge = relative(edge);
+      }
       generators.push_back(mirror);
     }
   }
@@ -129,21 +210,40 @@ template <class Real>
 std::vector<Real> image_values(const std::vector<TankImage>& images) {
   std::vector<Real> values;
   const auto add = [&values](double value) { values.push_back(static_cast<Real>(value)); };
+  const auto add_vector = [&add](const Vector3d& vector) {
+    for (int axis = 0; axis < 3; ++axis) add(vector[axis]);
+  };
+  const auto add_plane = [&](const TankPlane& plane) {
+    add_vector(plane.normal);
+    add(plane.offset);
+  };
   const auto add_matrix = [&add](const Eigen::Matrix3d& matrix) {
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column) add(matrix(row, column));
   };
   for (const TankImage& image : images) {
     add_matrix(image.matrix);
-    for (int axis = 0; axis < 3; ++axis) add(image.offset[axis]);
+    add_vector(image.offset);
     add_matrix(image.velocity_matrix);
-    for (int axis = 0; axis < 3; ++axis) add(image.velocity_offset[axis]);
-    for (const TankPlane& plane : image.seen_near) {
-      for (int axis = 0; axis < 3; ++axis) add(plane.normal[axis]);
-      add(plane.offset);
-    }
+    add_vector(image.velocity_offset);
+    for (const TankPlane& plane : image.seen_near) add_plane(plane);
     add(image.mirrored ? 1.0 : 0.0);
   }
+  constexpr std::size_t values_of_edge = 4;
+  std::size_t begin = values.size() + 2 * images.size();
+  for (const TankImage& image : images) {
+    add(static_cast<double>(begin));
+    add(static_cast<double>(image.gaps.size()));
+    for (const PlaneGap& gap : image.gaps) begin += field::gap_edges + values_of_edge * gap.edges.size();
+  }
+  for (const TankImage& image : images)
+    for (const PlaneGap& gap : image.gaps) {
+      add_plane(gap.plane);
+      add_vector(gap.centre);
+      add(gap.radius);
+      add(static_cast<double>(gap.edges.size()));
+      for (const TankPlane& edge : gap.edges) add_plane(edge);
+    }
   if (values.empty()) values.push_back(Real(0));
   return values;
 }

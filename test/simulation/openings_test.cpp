@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "simulation_fixture.h"
+#include "wavetank/scene/methods.h"
 
 namespace wavetank {
 namespace {
@@ -499,6 +500,130 @@ TEST_F(Openings, ThatReturnTooMuchAreRefused) {
   scene.openings[1].discharge = "2";
   scene.openings[1].returns_to = "start";
   EXPECT_NE(error_of([&] { Simulation simulation(scene); }).find("opening 'start': its water moves at up to 5 m/s"), std::string::npos);
+}
+
+// ---------------------------------------------------------------- between ghosts
+
+Case with_ghosts(Case scene) {
+  scene.numerics.walls.method = WallMethod::ghost;
+  return scene;
+}
+
+/// The channel in a current, whose ends are open up to `height`, between ghosts.
+Case ghost_channel(double height, Scheme scheme = Scheme::delta_sph) {
+  Case scene = with_ghosts(channel("0.4"));
+  scene.fluid.current = Vector3d(0.4, 0, 0);
+  for (OpeningCase& opening : scene.openings) {
+    opening.size = std::array<double, 2>{1.0, height};
+    opening.centre.z() = 0.5 * height;
+  }
+  scene.numerics.scheme = scheme;
+  if (scheme != Scheme::delta_sph) {
+    scene.numerics.density_diffusion = DensityDiffusion::none;
+    scene.numerics.shifting = Shifting::michel;
+  }
+  return scene;
+}
+
+/// Greatest difference of the water's velocity from `current` at a depth of more than two spacings under `level`, m/s.
+double farthest_from_current(const Simulation& simulation, double current, double level) {
+  const ParticleCloud cloud = simulation.particles();
+  double farthest = 0;
+  for (std::size_t i = 0; i < cloud.id.size(); ++i)
+    if (cloud.position[i].z() < level - 2 * spacing)
+      farthest = std::max(farthest, static_cast<double>((cloud.velocity[i] - Eigen::Vector3f(current, 0, 0)).norm()));
+  return farthest;
+}
+
+// The ends' planes go on over the openings, and must not mirror what is before those: the water is as uniform as in a channel without end
+// walls, to what the first steps from rest stir up (the closed tank at rest has 0.06 m/s).
+TEST_F(Openings, BetweenGhostsAChannelStaysUniform) {
+  for (const Scheme scheme : {Scheme::delta_sph, Scheme::riemann_parshikov, Scheme::riemann_ale}) {
+    double farthest[2] = {0, 0};
+    for (const double height : {0.6, 0.5}) {
+      const Case scene = ghost_channel(height, scheme);
+      Simulation simulation(scene);
+      const double mass = mass_of(simulation);
+      double& most = farthest[height < 0.55 ? 1 : 0];
+      while (simulation.state().time < 0.4) {
+        simulation.advance();
+        if (simulation.state().step % 20 == 0) most = std::max(most, farthest_from_current(simulation, 0.4, depth));
+      }
+      const Balance balance = balance_of(simulation);
+      std::printf("%s, %.1f m: %.4f m/s off the current, in %.3f, out %.3f kg, of %.3f off by %.3g\n", word_of(scheme).c_str(), height,
+                  most, balance.in, balance.out, mass, mass + balance.in - balance.out - mass_of(simulation));
+      EXPECT_NEAR(balance.in, 0.4 * 0.4 * depth * 1000, 1.01 * 10 * spacing * spacing * 1000);  // a row of particles at the most
+      EXPECT_NEAR(mass + balance.in - balance.out, mass_of(simulation), (scheme == Scheme::riemann_ale ? 1e-4 : 1e-6) * mass);
+    }
+    EXPECT_LT(farthest[0], 0.1);
+    EXPECT_LT(farthest[1], 1.1 * farthest[0]);
+  }
+}
+
+// A hole in the wall and one in the floor, both under water and held at its level: the planes about them mirror, the water behind them
+// stands in for the rest.
+TEST_F(Openings, BetweenGhostsStillWaterStaysStillBeforeHoles) {
+  Case scene = with_ghosts(tank_with_outlet());
+  OpeningCase side = opening("side", OpeningKind::outlet, Vector3d(1.2, 0, 0.18), -Vector3d::UnitX(), 0.2);
+  side.level = depth;
+  OpeningCase floor = opening("floor", OpeningKind::pressure, Vector3d(0.5, 0, 0), Vector3d::UnitZ(), 0.2);
+  floor.up = Vector3d::UnitX();
+  floor.head = "0.4";
+  Case closed = scene;
+  closed.openings.clear();
+  scene.openings = {side, floor};
+  Simulation with(scene), without(closed);
+  double fastest_with = 0, fastest_without = 0;
+  while (with.state().time < 0.6) {
+    with.advance();
+    without.advance();
+    fastest_with = std::max(fastest_with, with.state().greatest_speed);
+    fastest_without = std::max(fastest_without, without.state().greatest_speed);
+  }
+  std::printf("%.4f with holes, %.4f m/s without; in %.3g, out %.3g\n", fastest_with, fastest_without, balance_of(with).in,
+              balance_of(with).out);
+  EXPECT_LT(fastest_with, 1.2 * fastest_without);
+  EXPECT_EQ(balance_of(with).in, 0);
+  EXPECT_EQ(balance_of(with).out, 0);
+}
+
+TEST_F(Openings, BetweenGhostsRepeatFromASnapshot) {
+  const Case scene = ghost_channel(0.5);
+  Simulation first(scene), second(scene);
+  run_steps(first, 150);
+  first.save(path("middle"));
+  const Samples rest = run_steps(first, 100);
+  second.restore(path("middle"));
+  EXPECT_TRUE(same(rest, run_steps(second, 100)));
+  EXPECT_EQ(snapshot(first), snapshot(second));
+}
+
+// A slot in the floor, ten spacings wide, with air below it, lets as much out as between walls by integrals.
+TEST_F(Openings, BetweenGhostsWaterLeavesByASlot) {
+  Case scene = box_case(Vector3d(1.2, 0, 0.6), 0.4, spacing);
+  OpeningCase slot = opening("slot", OpeningKind::outlet, Vector3d(0.6, 0, 0), Vector3d::UnitZ(), 0.4);
+  slot.up = Vector3d::UnitX();
+  slot.level = -1;
+  scene.openings = {slot};
+  double left[2] = {0, 0};
+  for (const bool ghosts : {false, true}) {
+    Simulation simulation(ghosts ? with_ghosts(scene) : scene);
+    run_to(simulation, 0.4);
+    left[ghosts ? 1 : 0] = balance_of(simulation).out;
+  }
+  EXPECT_GT(left[1], 40);
+  EXPECT_NEAR(left[1], left[0], 1.01 * 10 * spacing * spacing * 1000);  // a row of particles
+}
+
+// A round hole in 3-D.
+TEST_F(Openings, BetweenGhostsWaterLeavesByARoundHole) {
+  Case scene = with_ghosts(box_case(Vector3d(0.6, 0.4, 0.4), 0.2, 0.04));
+  OpeningCase hole = opening("hole", OpeningKind::outlet, Vector3d(0.3, 0.2, 0), Vector3d::UnitZ(), 0);
+  hole.size.reset();
+  hole.diameter = 0.16;
+  hole.level = -1;
+  scene.openings = {hole};
+  expect_account(scene, 0.55, {0}, {0.1});
 }
 
 }  // namespace

@@ -106,6 +106,71 @@ TEST(TankImages, GhostsRefuseANarrowTank) {
   EXPECT_NO_THROW(images_of(with_ghosts(box_case(Vector3d(0.16, 0, 0.5), 0.2, 0.02))));
 }
 
+Case with_opening(Case scene, const Vector3d& centre, const Vector3d& normal, double height) {
+  OpeningCase opening;
+  opening.name = "opening";
+  opening.kind = OpeningKind::outlet;
+  opening.centre = centre;
+  opening.normal = normal;
+  opening.size = std::array<double, 2>{1.0, height};
+  scene.openings.push_back(opening);
+  return scene;
+}
+
+/// How far outside of a gap a place's foot is, m; negative within.
+double way_beside(const PlaneGap& gap, const Vector3d& place) {
+  double way = -1;
+  for (const TankPlane& edge : gap.edges) way = std::max(way, edge.normal.dot(place) + edge.offset);
+  return way;
+}
+
+// Pockets have no planes of their own; a wall that is all open has none; and a gap that stands on the floor has no border there.
+TEST(TankImages, OfGhostsHaveGapsAtOpenings) {
+  const Case closed = with_ghosts(box_case(Vector3d(0.5, 0, 0.5), 0.3, 0.02));
+  const Vector3d into_left(-1, 0, 0);
+  EXPECT_EQ(images_of(with_opening(closed, Vector3d(0.5, 0, 0.25), into_left, 0.5)).size(), 3u);  // left, floor, and their corner
+  for (const double middle : {0.1, 0.25}) {
+    Discretisation d;
+    std::size_t with_gaps = 0;
+    const std::vector<TankImage> images = images_of(with_opening(closed, Vector3d(0.5, 0, middle), into_left, 0.2), &d);
+    EXPECT_EQ(images.size(), 5u);
+    for (const TankImage& image : images) {
+      if (image.gaps.empty()) continue;
+      ++with_gaps;
+      ASSERT_EQ(image.gaps.size(), 1u);
+      const PlaneGap& gap = image.gaps[0];
+      EXPECT_NEAR(gap.plane.normal.dot(Vector3d(0.47, 0, 0.2) - d.origin) + gap.plane.offset, 0.03, 1e-12);
+      EXPECT_NEAR(way_beside(gap, Vector3d(0.47, 0, middle + 0.13) - d.origin), 0.03, 1e-12);
+      const double at_floor = way_beside(gap, Vector3d(0.47, 0, 0) - d.origin);
+      if (middle == 0.1) {
+        EXPECT_LE(at_floor, -0.5 * 0.02 + 1e-12);
+      } else {
+        EXPECT_NEAR(at_floor, 0.15, 1e-12);
+      }
+    }
+    EXPECT_EQ(with_gaps, 2u);  // at the right, and in its corner with the floor
+  }
+}
+
+// Of two openings that meet in an edge one's pocket is mirrored in the other's plane: behind both planes that fills the corner once.
+TEST(TankImages, OfGhostsFillTheCornerBetweenTwoOpeningsOnce) {
+  Case scene = with_opening(with_ghosts(box_case(Vector3d(0.5, 0, 0.5), 0.3, 0.02)), Vector3d(0.5, 0, 0.1), Vector3d(-1, 0, 0), 0.2);
+  scene = with_opening(scene, Vector3d(0.4, 0, 0), Vector3d(0, 0, 1), 0.2);
+  scene.openings[1].name = "floor";
+  scene.openings[1].up = Vector3d::UnitX();
+  Discretisation d;
+  int mirrored = 0;
+  for (const TankImage& image : images_of(scene, &d)) {
+    if (image.gaps.size() != 1) continue;
+    const PlaneGap& gap = image.gaps[0];
+    const bool is_floor = gap.plane.normal.z() > 0.5;
+    // of the other one's pocket
+    const Vector3d behind = (is_floor ? Vector3d(0.53, 0, 0.1) : Vector3d(0.4, 0, -0.03)) - d.origin;
+    if (std::abs(image.matrix.determinant() + 1) < 1e-9 && way_beside(gap, behind) > 0) ++mirrored;
+  }
+  EXPECT_EQ(mirrored, 1);
+}
+
 TEST(TankImages, AShortPeriodIsRefused) {
   expect_refusal(
       periodic_along(box_case(Vector3d(0.14, 0, 0.5), 0.2, 0.02), 0),

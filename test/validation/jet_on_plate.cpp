@@ -3,14 +3,18 @@
 // Words: n (particles over the jet's thickness H = 1 m, 20), angle (of the jet with the plate, degrees, 90), end (t U/H, 20), begin (of the
 // mean, 10), courant (0.5), damping (acoustic, with symplectic alone, 0.5:
 // sound between plate and nozzle rings for long without), sound (c₀/U, 11), distance (of the nozzle from the plate along
-// the jet, H, 2), left and right (outlets from the stagnation point, H, 4), scheme, shifting, tensile, integrator and density_diffusion.
+// the jet, H, 2), left and right (outlets from the stagnation point, H, 4), scheme, shifting, tensile, integrator, density_diffusion, and
+// walls (boundary_integral, ghost) and of_tank (1: the jet comes from a wall of the tank, as it must with ghosts, and not from a nozzle;
+// the tank is convex, so that at an angle the wall is farther from the plate, and `left` follows from that).
 // Prints the mean p* at points of the plate beside the exact one, the mean and scatter at the stagnation point, the L2 of the difference,
 // and the account of mass.
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <string>
 
+#include "../common/scratch_directory.h"
 #include "validation_case.h"
 #include "wavetank/common/error.h"
 #include "wavetank/scene/methods.h"
@@ -42,14 +46,34 @@ double exact_pressure(double place, double angle) {
   return 1 - low * low;
 }
 
+/// A convex tank of a floor and a ceiling, an oblique wall at the left that the jet comes from, which stands on an upright one, and an
+/// upright wall at the right.
+std::string tank_with_oblique_end(const ScratchDirectory& scratch, const Vector3d& lower, const Vector3d& upper, double right) {
+  const std::string file = scratch.file("tank.obj");
+  std::ofstream text(file);
+  text.precision(15);
+  const double x[5] = {upper.x(), lower.x(), lower.x(), right, right}, z[5] = {upper.z(), lower.z(), 0, 0, upper.z()};
+  for (const double y : {-0.5, 0.5})
+    for (int k = 0; k < 5; ++k) text << "v " << x[k] << ' ' << y << ' ' << z[k] << '\n';
+  for (int k = 0; k < 5; ++k) text << "f " << k + 1 << ' ' << (k + 1) % 5 + 1 << ' ' << (k + 1) % 5 + 6 << ' ' << k + 6 << '\n';
+  return file;
+}
+
 int run(const Words& words) {
   const double n = number(words, "n", 20), angle = number(words, "angle", 90) * pi / 180, end = number(words, "end", 20),
-               begin = number(words, "begin", 10), sound = number(words, "sound", 11), distance = number(words, "distance", 2);
+               begin = number(words, "begin", 10), sound = number(words, "sound", 11);
   const double spacing = 1 / n, cos = std::cos(angle), sin = std::sin(angle), wall = 5 * spacing;
-  const double left = number(words, "left", 4), right = number(words, "right", 4);
-  const double outlet = 1.25;  // H, higher than either sheet
+  const auto walls = words.find("walls");
+  const bool ghosts = walls != words.end() && walls->second == "ghost", oblique = angle < pi / 2 - 1e-9;
+  const bool of_tank = ghosts || number(words, "of_tank", 0) > 0;  // the opening that the jet comes from
+  const double outlet = 1.25;                                      // H, higher than either sheet
   // the stagnation point is that far upstream of where the jet's axis meets the plate: from the moment about it
   const double axis = angle == pi / 2 ? 0.0 : (std::abs(angle - pi / 6) < 1e-9 ? 1.4519 : 0.0);
+  const double distance = number(words, "distance", of_tank && oblique ? 3.75 : 2), right = number(words, "right", 4);
+  // stagnation point at x = 0; the jet comes from above
+  const Vector3d along(cos, 0, -sin), mouth = Vector3d(axis, 0, 0) - distance * along;
+  const Vector3d lower_lip = mouth - 0.5 * Vector3d(sin, 0, cos), upper_lip = mouth + 0.5 * Vector3d(sin, 0, cos);
+  const double left = of_tank && oblique ? -lower_lip.x() : number(words, "left", 4);
 
   Case scene;
   scene.title = "Plane jet on a plate";
@@ -76,21 +100,27 @@ int run(const Words& words) {
   choose(words, "density_diffusion", scene.numerics.density_diffusion);
   scene.numerics.expected_speed = 1;
 
-  // stagnation point at x = 0; the jet comes from above, its velocity (cos, 0, −sin)
-  const Vector3d along(cos, 0, -sin), mouth = Vector3d(axis, 0, 0) - distance * along;
-  const double depth = 11 * spacing;  // of the nozzle: its pocket is six spacings
-  const double top = mouth.z() + depth + 1;
-  scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), true};
-  BodyCase nozzle;
-  nozzle.name = "nozzle";
-  MeshSource box;
-  char uri[120];
-  std::snprintf(uri, sizeof uri, "shape://box?size=%.12g,1,%.12g", depth, 1 + 2 * wall);
-  box.uri = uri;
-  box.rotation = Vector3d(0, angle, 0);
-  box.translation = mouth - 0.5 * depth * along;
-  nozzle.shape = box;
-  scene.bodies = {nozzle};
+  const ScratchDirectory scratch;
+  if (ghosts) scene.numerics.walls.method = WallMethod::ghost;
+  if (of_tank) {
+    scene.numerics.walls.repulsion = number(words, "repulsion", 0);
+    scene.tank.shape = BoxTank{Vector3d(left + right, 0, mouth.z()), Vector3d(-left, 0, 0), true};
+    if (oblique) scene.tank.shape = MeshSource{tank_with_oblique_end(scratch, lower_lip, upper_lip, right)};
+  } else {
+    const double depth = 11 * spacing;  // of the nozzle: its pocket is six spacings
+    const double top = mouth.z() + depth + 1;
+    scene.tank.shape = BoxTank{Vector3d(left + right, 0, top), Vector3d(-left, 0, 0), true};
+    BodyCase nozzle;
+    nozzle.name = "nozzle";
+    MeshSource box;
+    char uri[120];
+    std::snprintf(uri, sizeof uri, "shape://box?size=%.12g,1,%.12g", depth, 1 + 2 * wall);
+    box.uri = uri;
+    box.rotation = Vector3d(0, angle, 0);
+    box.translation = mouth - 0.5 * depth * along;
+    nozzle.shape = box;
+    scene.bodies = {nozzle};
+  }
 
   const auto add = [&](const char* name, OpeningKind kind, const Vector3d& centre, const Vector3d& normal, double height) {
     OpeningCase opening;
@@ -102,10 +132,19 @@ int run(const Words& words) {
     scene.openings.push_back(opening);
   };
   add("jet", OpeningKind::inlet, mouth, along, 1);
-  scene.openings[0].body = "nozzle";
-  scene.openings[0].velocity = "min(t/2, 1)";  // its front is to hit the plate gently
-  add("left", OpeningKind::outlet, Vector3d(-left, 0, outlet / 2), Vector3d::UnitX(), outlet);
+  if (!of_tank) scene.openings[0].body = "nozzle";
+  if (of_tank && !oblique) scene.openings[0].up = Vector3d::UnitX();
+  // its front is to hit the plate gently; at an angle from afar it would pile up on the way
+  scene.openings[0].velocity = of_tank && oblique ? "1" : "min(t/2, 1)";
+  const double left_outlet = of_tank && oblique ? lower_lip.z() : outlet;  // up to where the jet begins
+  add("left", OpeningKind::outlet, Vector3d(-left, 0, left_outlet / 2), Vector3d::UnitX(), left_outlet);
   add("right", OpeningKind::outlet, Vector3d(right, 0, outlet / 2), -Vector3d::UnitX(), outlet);
+  // the wedge under the jet, into which its front splashes, is to drain: beyond is air, and not what stands before the outlet
+  if (of_tank && oblique) scene.openings[1].level = -1;
+  if (of_tank && oblique) {  // the jet's upper side must not stick to a ceiling
+    add("top", OpeningKind::outlet, Vector3d(0.5 * (upper_lip.x() + right), 0, upper_lip.z()), -Vector3d::UnitZ(), right - upper_lip.x());
+    scene.openings.back().up = Vector3d::UnitX();
+  }
 
   std::vector<double> places;
   for (double x = -2; x <= 3; x += 0.05) places.push_back(x);

@@ -31,6 +31,11 @@ Case column(int dimensions, DensityDiffusion diffusion = DensityDiffusion::fourt
   return scene;
 }
 
+template <class Choice>
+Choice nth(std::size_t k) {
+  return method_words<Choice>()[k % method_words<Choice>().size()].choice;
+}
+
 /// A box that is carried from the floor into the water and turned, in a tank that turns too.
 class Carried final : public WallMover {
  public:
@@ -87,7 +92,8 @@ class Runs {
   }
   /// Particles come, for which there is no room yet, and go.
   void run_drains(const Case& scene);
-  void run_openings();
+  /// Of a case whose one opening's water moves in at 0.1 m/s.
+  void run_openings(const Case& checked);
   EveryKernel result();
 
  private:
@@ -143,22 +149,7 @@ void Runs::run_drains(const Case& checked) {
   read(*solver);
 }
 
-/// Water that comes in by a wall, a shifting law that leaves it be, and a zone that damps some of the rest.
-void Runs::run_openings() {
-  Case checked = column(2);
-  checked.bodies.clear();
-  checked.numerics.shifting = Shifting::michel;
-  OpeningCase inlet;
-  inlet.name = "inlet";
-  inlet.centre = Vector3d(0, 0, 0.1);
-  inlet.normal = Vector3d::UnitX();
-  inlet.size = std::array<double, 2>{1, 0.1};
-  inlet.velocity = "0.1";
-  checked.openings = {inlet};
-  DampingCase damping;
-  damping.box = Box{Vector3d(0.05, 0, 0), Vector3d(0.35, 0, 0.3)};
-  damping.strength = 10;
-  checked.fluid.damping = {damping};
+void Runs::run_openings(const Case& checked) {
   const Layout layout = lay_out(checked);
   const Case scene = settled(checked, layout);
   const auto solver = make_solver(device_, scene, layout, discretise(scene, layout), {Vector3d::Zero()});
@@ -180,6 +171,47 @@ void Runs::run_openings() {
   ++found_.cases;
   if (!solver->advance().valid()) ++found_.violations;
   read(*solver);
+}
+
+/// Water that comes in by a wall, a shifting law that leaves it be, and a zone that damps some of the rest.
+Case with_inlet(int dimensions) {
+  Case scene = column(dimensions);
+  scene.bodies.clear();
+  scene.numerics.shifting = Shifting::michel;
+  OpeningCase inlet;
+  inlet.name = "inlet";
+  inlet.centre = Vector3d(0, dimensions == 3 ? 0.125 : 0, 0.12);
+  inlet.normal = Vector3d::UnitX();
+  if (dimensions == 3) {
+    inlet.diameter = 0.12;
+  } else {
+    inlet.centre.z() = 0.1;
+    inlet.size = std::array<double, 2>{1, 0.1};
+  }
+  inlet.velocity = "0.1";
+  scene.openings = {inlet};
+  DampingCase damping;
+  damping.box = Box{Vector3d(0.05, 0, 0), Vector3d(0.35, dimensions == 3 ? 0.25 : 0, 0.3)};
+  damping.strength = 10;
+  scene.fluid.damping = {damping};
+  return scene;
+}
+
+/// Likewise between ghosts, whose planes have a hole there: of edges, of a disc.
+void run_openings_between_ghosts(Runs& runs, int dimensions) {
+  Case scene = with_inlet(dimensions);
+  scene.numerics.walls.method = WallMethod::ghost;
+  scene.numerics.walls.repulsion = 0.1;
+  scene.numerics.turbulence = nth<Turbulence>(1);
+  runs.run_openings(scene);
+  if (dimensions == 3) return;
+  scene.numerics.turbulence = Turbulence::none;
+  scene.numerics.scheme = Scheme::riemann_ale;
+  runs.run_openings(scene);
+  scene.numerics.scheme = Scheme::delta_sph;
+  scene.numerics.shifting = Shifting::none;
+  scene.numerics.gradients = Gradients::mls_corrected;
+  runs.run_openings(scene);
 }
 
 /// All that a solver can be asked.
@@ -266,7 +298,7 @@ void run_few(Runs& runs) {
   scene.numerics.shifting = Shifting::michel;
   Carried mover(3);
   runs.run(scene, &mover);
-  runs.run_openings();
+  runs.run_openings(with_inlet(2));
 }
 
 /// Least squares between wall integrals, by fits found as they are used, and between ghosts, by fits that neighbours are asked for.
@@ -282,11 +314,6 @@ void run_least_squares(Runs& runs, int dimensions) {
   scene.numerics.walls.method = WallMethod::ghost;
   scene.numerics.walls.repulsion = 0.1;
   runs.run(scene);
-}
-
-template <class Choice>
-Choice nth(std::size_t k) {
-  return method_words<Choice>()[k % method_words<Choice>().size()].choice;
 }
 
 /// Every word of every key by which a case chooses its method, in as few runs as the longest list has words.
@@ -317,6 +344,7 @@ void run_all(Runs& runs) {
     run_walls(runs, dimensions);
     run_motion(runs, dimensions);
     run_least_squares(runs, dimensions);
+    run_openings_between_ghosts(runs, dimensions);
   }
   // tiles of sixteen lanes, which read beyond the last particle
   Case open_water = column(3, DensityDiffusion::antuono);
@@ -330,7 +358,7 @@ void run_all(Runs& runs) {
   shifted.bodies.clear();
   runs.run_wide(shifted);
   runs.run_drains(column(2));
-  runs.run_openings();
+  runs.run_openings(with_inlet(2));
 }
 
 }  // namespace

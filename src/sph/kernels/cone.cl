@@ -18,7 +18,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const tile in_ball = one_above(R(2.0) * length * along, r2);
   const tile in_cone = one_above(along, (tile)(R(0.0))) * one_above(along * along, R(0.5) * r2);
   tile covered = beyond * in_ball + (one - beyond) * in_cone;
-#if THIN_WALLS
+#if PARTLY_SEEN
   covered *= a->near.seen;
 #endif
   a->covered = fmax(a->covered, covered);

@@ -40,6 +40,19 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 }
 #endif
 
+#if PIERCED && EDDIES
+// From what there is of the image's one plane, `above` which the point is: before a gap, from the nearest of its edges.
+INLINE real distance_past_gaps(__constant const parameters_t* p, __global const real* images, int image, real above, real x, real y, real z) {
+  __global const real* gap;
+  real distance = above;
+  for (int left = gaps_of_image(p, images, image, &gap); left > 0; --left, gap = next_gap(gap)) {
+    const real beside = way_beside_gap(gap, above, x, y, z);
+    if (beside < R(0.0)) distance = sqrt(above * above + beside * beside);
+  }
+  return distance;
+}
+#endif
+
 #if GHOSTS && EDDIES
 // From the nearest of the planes that mirror.
 INLINE real distance_from_planes(__constant const parameters_t* p, __global const real* images, real x, real y, real z) {
@@ -48,7 +61,12 @@ INLINE real distance_from_planes(__constant const parameters_t* p, __global cons
     __global const real* image = images + k * IMAGE_COUNT;
     if (image[IMAGE_MIRRORED] < R(0.5)) continue;
     __global const real* plane = image + IMAGE_NEAR;
+#if PIERCED
+    if (image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;  // planes one by one
+    nearest = fmin(nearest, distance_past_gaps(p, images, k, plane[0] * x + plane[1] * y + plane[2] * z + plane[3], x, y, z));
+#else
     nearest = fmin(nearest, plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
+#endif
   }
   return nearest;
 }

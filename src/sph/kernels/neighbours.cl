@@ -10,6 +10,16 @@
 #define IMAGE_NEAR 24             // seen only by particles with n·x + o < R for each of three planes: n, o
 #define IMAGE_MIRRORED 36         // 1: a reflection
 
+// A plane that mirrors may have openings. After the images the array has, for each of them, where the gaps in its planes begin and how many they are; a gap is
+#define PIERCED (GHOSTS && OPENINGS)
+#define GAP_PLANE 0    // n, o of the plane that it is in: n·x + o is the distance from it
+#define GAP_CENTRE 4   // of a disc
+#define GAP_RADIUS 7   // m, of a disc; 0: edges bound the gap
+#define GAP_CORNERS 8  // how many edges follow from GAP_EDGES on: m, o of each, along the plane: m·x + o is positive outside
+
+// Neighbours may count in part.
+#define PARTLY_SEEN (THIN_WALLS || PIERCED)
+
 typedef struct {
   __global const int* start;    // of each cell: elements sorted by cell, or the cell's part of the list of facets
   __global const int* list;
@@ -70,12 +80,18 @@ typedef struct {
   int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is
   real transparency[TILE_OWN];   // with which neighbours count that a thin wall hides
   real beyond[TILE_OWN];         // Σ W V of all that are beyond thin walls, in sight or not
-  tile seen;                     // how much the neighbours that are added now count: 1 in sight
   tile through;                  // 1: it is the watched owner's walls that hide them
+#endif
+#if PARTLY_SEEN
+  tile seen;                     // how much the neighbours that are added now count: 1 in sight
 #endif
 #if GHOSTS
   bool mirrored;  // the neighbours added now are those of the image
   __global const real* image;
+#endif
+#if PIERCED
+  int gap_count;  // of the image's planes, if any of them is near
+  __global const real* gaps;
 #endif
 } neighbours_t;
 
@@ -108,12 +124,18 @@ INLINE void start_neighbours(neighbours_t* n, __global const real* state, long s
   n->past = true;
   n->watched = NO_OWNER;
   for (int k = 0; k < TILE_OWN; ++k) n->transparency[k] = n->beyond[k] = R(0.0);
-  n->seen = (tile)(R(1.0));
   n->through = (tile)(R(0.0));
+#endif
+#if PARTLY_SEEN
+  n->seen = (tile)(R(1.0));
 #endif
 #if GHOSTS
   n->mirrored = false;
   n->image = 0;
+#endif
+#if PIERCED
+  n->gap_count = 0;
+  n->gaps = 0;
 #endif
 }
 
@@ -169,7 +191,7 @@ INLINE void stand_at(walls_t* walls, __global const real* state, long stride, in
 
 // Their volumes, as far as they count.
 INLINE tile near_volume(const neighbours_t* n, int j) {
-#if THIN_WALLS
+#if PARTLY_SEEN
   return n->seen * near_field(n, FIELD_VOLUME, j);
 #else
   return near_field(n, FIELD_VOLUME, j);
@@ -239,6 +261,57 @@ INLINE vector_t seen_by_image(__global const real* image, real x, real y, real z
   const real dx = x - image[IMAGE_OFFSET], dy = y - image[IMAGE_OFFSET + 1], dz = z - image[IMAGE_OFFSET + 2];
   return make_vector(q[0] * dx + q[3] * dy + q[6] * dz, q[1] * dx + q[4] * dy + q[7] * dz, q[2] * dx + q[5] * dy + q[8] * dz);
 }
+
+#if PIERCED
+#define GAP_BORDER R(0.5)    // spacings, about a gap's outline, over which the plane comes to mirror wholly: what passes the outline is not to kick
+#define BEHIND_PLANE R(0.1)  // spacings: nothing is mirrored that lies so far behind, where the water beyond openings stands
+
+// How far the foot of (x, y, z) on the plane, from which it is `above`, lies outside of a gap.
+INLINE real way_beside_gap(__global const real* gap, real above, real x, real y, real z) {
+  if (gap[GAP_RADIUS] > R(0.0)) {
+    const vector_t off = make_vector(x - gap[GAP_CENTRE], y - gap[GAP_CENTRE + 1], z - gap[GAP_CENTRE + 2]);
+    return sqrt(fmax(dot3(off, off) - above * above, R(0.0))) - gap[GAP_RADIUS];
+  }
+  real way = -FAR_AWAY;
+  for (int k = 0; k < (int)gap[GAP_CORNERS]; ++k) {
+    __global const real* edge = gap + GAP_EDGES + 4 * k;
+    way = fmax(way, edge[0] * x + edge[1] * y + edge[2] * z + edge[3]);
+  }
+  return way;
+}
+
+INLINE real above_gap(__global const real* gap, real x, real y, real z) {
+  return gap[GAP_PLANE] * x + gap[GAP_PLANE + 1] * y + gap[GAP_PLANE + 2] * z + gap[GAP_PLANE + 3];
+}
+
+INLINE __global const real* next_gap(__global const real* gap) { return gap + GAP_EDGES + 4 * (int)gap[GAP_CORNERS]; }
+
+// How much of what is at (x, y, z) the planes with these gaps mirror: nothing before a gap.
+INLINE real mirrored_part(__constant const parameters_t* p, __global const real* gaps, int count, real x, real y, real z) {
+  real part = R(1.0);
+  for (__global const real* gap = gaps; count > 0; --count, gap = next_gap(gap)) {
+    const real above = above_gap(gap, x, y, z);
+    const real beside = above < -BEHIND_PLANE * p->spacing ? -p->spacing : way_beside_gap(gap, above, x, y, z);
+    part = fmin(part, fmin(fmax(beside / (GAP_BORDER * p->spacing) + R(0.5), R(0.0)), R(1.0)));
+  }
+  return part;
+}
+
+// Where the gaps of an image's planes are, and how many.
+INLINE int gaps_of_image(__constant const parameters_t* p, __global const real* images, int image, __global const real** gaps) {
+  __global const real* at = images + p->images * IMAGE_COUNT + 2 * image;
+  *gaps = images + (int)at[0];
+  return (int)at[1];
+}
+
+// Whether any of the gaps is so near to (x, y, z) that something within the support of it has its foot in it.
+INLINE bool near_gap(__constant const parameters_t* p, __global const real* gaps, int count, real x, real y, real z) {
+  bool near = false;
+  for (__global const real* gap = gaps; count > 0; --count, gap = next_gap(gap))
+    near = near || way_beside_gap(gap, above_gap(gap, x, y, z), x, y, z) < p->support + GAP_BORDER * p->spacing;
+  return near;
+}
+#endif
 
 #if THIN_WALLS
 #define BARRIER_OWNER 20

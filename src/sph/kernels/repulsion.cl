@@ -15,7 +15,12 @@ INLINE void add_repulsion(vector_t* force, __constant const parameters_t* p, __g
     __global const real* image = images + k * IMAGE_COUNT;
     if (image[IMAGE_MIRRORED] < R(0.5) || image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;
     __global const real* plane = image + IMAGE_NEAR;
-    const real size = repulsion_at(p, plane[0] * x + plane[1] * y + plane[2] * z + plane[3], density);
+    real size = repulsion_at(p, plane[0] * x + plane[1] * y + plane[2] * z + plane[3], density);
+#if PIERCED
+    __global const real* gaps;
+    const int count = gaps_of_image(p, images, k, &gaps);
+    size *= mirrored_part(p, gaps, count, x, y, z);
+#endif
     // n·x + o is the distance: n points into the fluid
     force->x += size * plane[0];
     force->y += size * plane[1];

@@ -37,7 +37,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   __global const real* around = a->around;
   const long stride = a->near.stride;
   tile nearer = near_values(around + AROUND_SURFACE * stride, j) * one_above(a->nearest, r2);
-#if THIN_WALLS
+#if PARTLY_SEEN
   nearer *= one_above(a->near.seen, (tile)(R(0.5)));
 #endif
   __global const real* normal = around + AROUND_NORMAL * stride;

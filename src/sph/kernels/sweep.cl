@@ -138,6 +138,14 @@ INLINE void sweep_run(sweep_t* sums, __constant const parameters_t* p, run_t run
 #if GHOSTS
     if (sums->near.mirrored) {
       const vector_t r = turned(sums->near.image + IMAGE_MATRIX, rx, ry, rz);
+#if PIERCED
+      if (near->gap_count > 0) {
+        if (r2 >= p->support_squared) continue;
+        near->seen = mirrored_part(p, near->gaps, near->gap_count, near_field(near, FIELD_X, j),
+                                   DIMENSIONS == 3 ? near_field(near, FIELD_Y, j) : R(0.0), near_field(near, FIELD_Z, j));
+        if (near->seen == R(0.0)) continue;
+      }
+#endif
       add_particle(sums, p, j, r.x, r.y, r.z, r2);
       continue;
     }
@@ -356,6 +364,14 @@ INLINE void turn_rests(neighbours_t* near) {
 #endif
 }
 
+#if PIERCED
+// Those of the image's planes, if any matters to what is swept: tiles are of one.
+INLINE void find_gaps(neighbours_t* near, __constant const parameters_t* p, __global const real* images, int image) {
+  near->gap_count = gaps_of_image(p, images, image, &near->gaps);
+  if (!near_gap(p, near->gaps, near->gap_count, near->places.x[0], near->places.y[0], near->places.z[0])) near->gap_count = 0;
+}
+#endif
+
 // The ghosts alone.
 INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   for (int k = 0; k < p->images; ++k) {
@@ -365,9 +381,15 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
     sums->near.mirrored = true;
     sums->near.image = image;
     turn_rests(&sums->near);
+#if PIERCED
+    find_gaps(&sums->near, p, images, k);
+#endif
     sweep_rows(sums, p, slot_start, &seen);
     turn_rests(&sums->near);
     sums->near.mirrored = false;
+#if PIERCED
+    sums->near.seen = R(1.0);
+#endif
   }
 }
 #endif

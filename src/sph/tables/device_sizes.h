@@ -78,6 +78,7 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(free_edge_count, 8, "base, direction, length, and 1, or 0 where another wall stands at it") \
   /* images, drains, zones, reductions */ \
   ROW(image_count, 37, "values of a mirror or a period") \
+  ROW(gap_edges, 9, "of a gap in a plane that mirrors: plane n, o, centre, radius and number of edges; then theirs") \
   ROW(drain_count, 12, "centre, and three vectors along which its faces are at −1 and 1") \
   /* zones whose water's state is imposed: a header each, and tables of cells */ \
   ROW(zone_centre, 0, "m: of the front, x, y, z") \
