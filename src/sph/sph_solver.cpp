@@ -65,8 +65,7 @@ void check_walls_of_least_squares(const Case& scene, const Layout& layout, bool 
     throw Error(
         chosen +
         ", which knows no thin walls, with water nearer on both sides than the support: choose sph, or make fluid/spacing smaller.");
-  const bool ghosts = scene.numerics.walls.method == WallMethod::ghost;
-  tank_planes(layout, ghosts ? layout.openings : std::vector<Opening>(), chosen, "sph");
+  tank_planes(layout, {}, chosen, "sph");
 }
 
 }  // namespace

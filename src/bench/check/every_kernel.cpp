@@ -208,10 +208,6 @@ void run_openings_between_ghosts(Runs& runs, int dimensions) {
   scene.numerics.turbulence = Turbulence::none;
   scene.numerics.scheme = Scheme::riemann_ale;
   runs.run_openings(scene);
-  scene.numerics.scheme = Scheme::delta_sph;
-  scene.numerics.shifting = Shifting::none;
-  scene.numerics.gradients = Gradients::mls_corrected;
-  runs.run_openings(scene);
 }
 
 /// All that a solver can be asked.
