@@ -17,15 +17,15 @@ constexpr int rim_corners = 24;  // of a disc's outline, which is for drawing
 int cells_along(double length, double spacing) { return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9))); }
 
 /// A cell of the section, before it is known whether water can come to it.
-struct Cell {
+struct SectionCell {
   Vector3d place;
   double area;
 };
 
-std::vector<Cell> cut_rectangle(const Opening& plane, double width, double height, int dimensions, double spacing) {
+std::vector<SectionCell> cut_rectangle(const Opening& plane, double width, double height, int dimensions, double spacing) {
   const int rows = cells_along(height, spacing), columns = dimensions == 2 ? 1 : cells_along(width, spacing);
   const double up = height / rows, across = dimensions == 2 ? 0 : width / columns;
-  std::vector<Cell> cells;
+  std::vector<SectionCell> cells;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
       cells.push_back({plane.centre + (up * (row + 0.5) - 0.5 * height) * plane.up +
@@ -35,10 +35,10 @@ std::vector<Cell> cut_rectangle(const Opening& plane, double width, double heigh
 }
 
 /// Rings of equal breadth, each cut into equal parts about as long.
-std::vector<Cell> cut_disc(const Opening& plane, double diameter, double spacing) {
+std::vector<SectionCell> cut_disc(const Opening& plane, double diameter, double spacing) {
   const int rings = cells_along(0.5 * diameter, spacing);
   const double breadth = 0.5 * diameter / rings;
-  std::vector<Cell> cells;
+  std::vector<SectionCell> cells;
   for (int ring = 0; ring < rings; ++ring) {
     const double radius = (ring + 0.5) * breadth;
     const int parts = std::max(4, cells_along(2 * pi * radius, spacing));
@@ -75,9 +75,10 @@ FlowSection place_section(const FlowSectionCase& given, const Basin& basin, cons
   FlowSection section;
   section.normal = plane.normal;
   section.outline = outline_of(given, plane, basin.dimensions);
-  const std::vector<Cell> cells = given.diameter ? cut_disc(plane, *given.diameter, spacing)
-                                                 : cut_rectangle(plane, (*given.size)[0], (*given.size)[1], basin.dimensions, spacing);
-  for (const Cell& cell : cells) {
+  const std::vector<SectionCell> cells = given.diameter
+                                             ? cut_disc(plane, *given.diameter, spacing)
+                                             : cut_rectangle(plane, (*given.size)[0], (*given.size)[1], basin.dimensions, spacing);
+  for (const SectionCell& cell : cells) {
     if (!open.reached(cell.place, cell.place)) continue;
     section.places.push_back(cell.place);
     section.areas.push_back(cell.area);

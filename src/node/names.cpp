@@ -74,6 +74,11 @@ void claim(std::map<std::string, std::string>& taken, const std::string& topic, 
   if (!is_new) throw Error(what + " and " + holder->second + " would both " + does + " '" + topic + "': give one of them another name");
 }
 
+void claim_moorings(std::map<std::string, std::string>& taken, const RigidCase& rigid, const std::string& body) {
+  for (std::size_t m = 0; m < rigid.moorings.size(); ++m)
+    claim(taken, mooring_topic(body, name_of(rigid, m)), "mooring '" + name_of(rigid, m) + "' of '" + body + "'");
+}
+
 }  // namespace
 
 void check_names(const Case& checked) {
@@ -90,6 +95,8 @@ void check_names(const Case& checked) {
     claim(taken, section_topic(section.name), "section '" + section.name + "'");
   for (const JointCase& joint : checked.joints)
     if (joint.command) claim(taken, joint_command_topic(joint.name), "joint '" + joint.name + "'", "listen to");
+  claim_moorings(taken, checked.tank.rigid, tank_name);
+  for (const BodyCase& body : checked.bodies) claim_moorings(taken, body.rigid, body.name);
   for (const OpeningCase& opening : checked.openings) claim(taken, flow_topic(opening.name), "opening '" + opening.name + "'");
 }
 

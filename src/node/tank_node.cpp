@@ -187,9 +187,10 @@ void TankNode::publish_present_poses(const Simulation& simulation) {
 void TankNode::stepped(const Simulation& simulation, const Samples& samples) {
   const double time = simulation.state().time;
   // Before the samples, so that nobody gets one from the future.
-  const bool has_samples =
-      !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty() || !samples.imus.empty();
-  if (has_samples || Clock::now() >= clock_due_) publish_clock(time);
+  const bool any_published = !samples.pressures.empty() || !samples.levels.empty() || !samples.wrenches.empty() || !samples.poses.empty() ||
+                             !samples.flows.empty() || !samples.velocities.empty() || !samples.sections.empty() || !samples.imus.empty() ||
+                             !samples.moorings.empty();
+  if (any_published || Clock::now() >= clock_due_) publish_clock(time);
   publish_samples(samples);
   if (!recorder_) return;
   LoopStatus status;

@@ -58,7 +58,7 @@ Section<SixLimits> six_limits_section() {
   return section;
 }
 
-Section<JointCommandCase> command_section() {
+Section<JointCommandCase> joint_command_section() {
   Section<JointCommandCase> section;
   section.key("quantity", &JointCommandCase::quantity,
               choice<JointQuantity>({{"effort", JointQuantity::effort}, {"velocity", JointQuantity::velocity}}), "",
@@ -95,7 +95,7 @@ void check_type(const JointCase& joint, const Setting& map, const std::string& p
   demand("stiffness", "number, N/m");
 }
 
-void check_plane(const JointCase& joint, const Setting& map, const std::string& path, const Context& context) {
+void check_joint_plane(const JointCase& joint, const Setting& map, const std::string& path, const Context& context) {
   if (context.dimensions != 2) return;
   const Vector3d& axis = joint.axis;
   if (joint.type == JointType::hinge && (axis.x() != 0 || axis.z() != 0))
@@ -151,7 +151,7 @@ Section<JointCase> joint_section() {
   add("damping", &JointCase::damping, number(at_least(0)), "N·s/m or N·m·s/rad", "Of spring, slider and hinge; in 2-D a metre of width.");
   add("length", &JointCase::length, number_if_given(at_least(0)), "m",
       "Of a spring, unstretched; if it is left out, the distance of its ends at the start.");
-  add("command", &JointCase::command, section_if_given(command_section()), "",
+  add("command", &JointCase::command, section_if_given(joint_command_section()), "",
       "Of hinge and slider: its effort or velocity is commanded while it runs, and 0 before; what is commanded and its limits, or {}.");
   section.converts(
       [](JointCase& joint) {
@@ -161,7 +161,7 @@ Section<JointCase> joint_section() {
         if (joint.type == JointType::hinge && joint.limits) joint.limits = {in_degrees((*joint.limits)[0]), in_degrees((*joint.limits)[1])};
       });
   section.rule(check_type);
-  section.rule(check_plane);
+  section.rule(check_joint_plane);
   return section;
 }
 

@@ -81,7 +81,7 @@ Section<RecordCase> motion_record_section() {
 }
 
 // In 2-D nothing leaves the plane: strokes are in it, and what turns does so about y.
-void check_plane(const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context& context) {
+void check_motion_plane(const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context& context) {
   if (context.dimensions != 2) return;
   const std::set<Direction> used = directions_of(prescribed);
   const Vector3d& axis = prescribed.axis;
@@ -114,7 +114,7 @@ Section<PrescribedCase> prescribed_section() {
   section.key("ramps", &PrescribedCase::ramps, list_of(ramp_section()), "", "Smooth changes between two times.");
   section.key("records", &PrescribedCase::records, list_of(motion_record_section()), "", "Motions from files, joined by a cubic spline.");
   section.key("waves", &PrescribedCase::waves, section_if_given(wave_section()), "", "The motion of a paddle that makes waves by theory.");
-  section.rule(check_plane);
+  section.rule(check_motion_plane);
   section.rule([](const PrescribedCase& prescribed, const Setting& map, const std::string& path, const Context&) {
     if (prescribed.waves && is_rotation(prescribed.waves->direction) && !prescribed.point)
       refuse_key(map, path, "point", "is missing; a flap that makes waves needs it: its hinge");

@@ -102,6 +102,13 @@ TEST(Section, ReadsTheDischargeIn2D) { expect_discharge(flowing(Vector3d(1, 0, 0
 
 TEST(Section, ReadsTheDischargeIn3D) { expect_discharge(flowing(Vector3d(0.6, 0.4, 0.6), 0.4, 0.025), 0.4, 0.4); }
 
+TEST(Section, BetweenGhostsDoesNotCountThem) {
+  Case scene = flowing(Vector3d(1, 0, 0.8), 0.5, 0.02);
+  scene.numerics.walls.method = WallMethod::ghost;
+  scene.numerics.walls.slip = Slip::no_slip;  // whose velocities are turned round whole
+  expect_discharge(scene, 1, 0.5);
+}
+
 TEST(Section, OfADiscReadsTheDischarge) {
   Case scene = flowing(Vector3d(0.6, 0.4, 0.6), 0.4, 0.025);
   FlowSectionCase disc;

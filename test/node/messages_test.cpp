@@ -248,6 +248,21 @@ TEST(Names, ThatShareATopicAreRefused) {
   }
 }
 
+TEST(Names, OfMooringsThatShareATopicAreRefused) {
+  Case example = example_case();
+  MooringCase first, second;
+  first.name = "1";  // as the second is called, which has no name
+  example.bodies[0].rigid.moorings = {first, second};
+  try {
+    check_names(example);
+    FAIL() << "two moorings of one topic were accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "mooring '1' of 'box' and mooring '1' of 'box' would both publish on 'bodies/box/moorings/1/tension': "
+              "give one of them another name");
+  }
+}
+
 TEST(StaticTransforms, PlaceProbesAndBodiesUnderTheWorldFrame) {
   const auto transforms = static_transforms(example_case(), example_frames());
   ASSERT_EQ(transforms.size(), 3U);

@@ -19,9 +19,9 @@ typedef struct {
   tile weight, pressure;
 #if VELOCITIES
   tile u, v, w;  // Σ W V u
-#endif
-#if PIERCED
+#if GHOSTS
   tile of_water;  // Σ W V without ghosts: what they have of velocity is turned round
+#endif
 #endif
 } sweep_t;
 
@@ -38,11 +38,11 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   const tile head = a->gravity.x * rx + a->gravity.y * ry + a->gravity.z * rz;
   a->weight += weight;
   a->pressure += weight * (neighbour_pressure(&a->near, p, j, rx, ry, rz) - density * head);
-#if PIERCED
+#if VELOCITIES
+#if GHOSTS
   if (a->near.mirrored) return;
   a->of_water += weight;
 #endif
-#if VELOCITIES
   const tile_vector_t velocity = neighbour_velocity(&a->near, j);
   a->u += weight * velocity.x;
   a->v += weight * velocity.y;
@@ -110,7 +110,7 @@ __kernel void points(__constant const parameters_t* p, int count, __global const
   own_sums(a.v, &v);
   own_sums(a.w, &w);
   const real least = R(1.0e-6);
-#if PIERCED
+#if GHOSTS
   own_sums(a.of_water, &weight);
 #endif
   results[3 * count + i] = u / fmax(weight, least);
