@@ -20,18 +20,21 @@ import numpy
 import rosbag
 import rospy
 import wavetank
-from geometry_msgs.msg import Point, WrenchStamped
+from geometry_msgs.msg import Point, Vector3, Vector3Stamped, WrenchStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState, PointCloud2, PointField
+from sensor_msgs.msg import Imu, JointState, PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
-from wavetank.msg import OpeningFlow, ProbeArray, SolverStatus, WaveGaugeArray
+from wavetank.msg import MooringTension, OpeningFlow, ProbeArray, SectionFlow, SolverStatus, WaveGaugeArray
+from wavetank.bag_file import BagFile
 from wavetank.recording import Recording
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "scripts")
 COUNT = 500
 RANDOM = numpy.random.default_rng(20).integers(0, 2**64, (COUNT, 8), dtype=numpy.uint64).view(numpy.float64)  # any bits: infinities, denormals
 RANDOM[numpy.isnan(RANDOM)] = -0.0
+SPEEDS = RANDOM[:, 0].copy()
+SPEEDS[7] = math.nan  # of a velocity probe that is out of the water
 
 try:
     import pandas
@@ -74,6 +77,13 @@ def write_tank(bag, namespace, order):
         probes = ProbeArray(names=["P%d" % k for k in range(8)], pressures=row, positions=[Point(k, 0, 0.5) for k in range(8)])
         bag.write(namespace + "/probes", stamped(probes, n), at)
         bag.write(namespace + "/gauges", stamped(WaveGaugeArray(names=["left", "right"], levels=row[:2], positions=[Point(1, 2, 3)] * 2), n), at)
+        bag.write(namespace + "/velocities/V1", stamped(Vector3Stamped(vector=Vector3(SPEEDS[n], row[1], row[2])), n), at)
+        bag.write(namespace + "/sections/weir", stamped(SectionFlow(discharge=row[3], area=row[4]), n), at)
+        imu = stamped(Imu(), n)
+        imu.orientation.w, imu.angular_velocity.y, imu.linear_acceleration.z = row[5], row[6], row[7]
+        bag.write(namespace + "/bodies/hull/imu", imu, at)
+        tension = MooringTension(tension=row[0], anchor_tension=row[1], lying=row[2])
+        bag.write(namespace + "/bodies/hull/moorings/bow/tension", stamped(tension, n), at)
         wrench = stamped(WrenchStamped(), n)
         wrench.wrench.force.x, wrench.wrench.torque.z = row[2], row[3]
         bag.write(namespace + "/bodies/hull/wrench", wrench, at)
@@ -108,10 +118,21 @@ class BagTest(unittest.TestCase):
 class Reader(BagTest):
     def test_has_the_bits_of_every_instrument_in_the_order_of_time(self):
         tables = wavetank.read_tables(self.bag)
-        self.assertEqual(list(tables), ["probes", "gauges", "bodies/hull/odom", "bodies/hull/wrench", "openings/hose/flow", "joint_states", "status"])
+        names = ["probes", "gauges", "velocities/V1", "sections/weir", "bodies/hull/odom", "bodies/hull/wrench", "bodies/hull/imu"]
+        self.assertEqual(list(tables), names + ["bodies/hull/moorings/bow/tension", "openings/hose/flow", "joint_states", "status"])
         for name, column, number in (
             ("probes", "P7", 7),
             ("gauges", "right", 1),
+            ("velocities/V1", "velocity_y", 1),
+            ("velocities/V1", "velocity_z", 2),
+            ("sections/weir", "discharge", 3),
+            ("sections/weir", "area", 4),
+            ("bodies/hull/imu", "orientation_w", 5),
+            ("bodies/hull/imu", "angular_velocity_y", 6),
+            ("bodies/hull/imu", "specific_force_z", 7),
+            ("bodies/hull/moorings/bow/tension", "tension", 0),
+            ("bodies/hull/moorings/bow/tension", "anchor_tension", 1),
+            ("bodies/hull/moorings/bow/tension", "lying", 2),
             ("bodies/hull/odom", "position_y", 4),
             ("bodies/hull/odom", "angular_velocity_z", 5),
             ("bodies/hull/wrench", "force_x", 2),
@@ -121,6 +142,7 @@ class Reader(BagTest):
             ("status", "kinetic_energy", 0),
         ):
             self.assertTrue(same_bits(tables[name].columns[column], RANDOM[:, number]), "%s of %s" % (column, name))
+        self.assertTrue(same_bits(tables["velocities/V1"].columns["velocity_x"], SPEEDS))
         for table in tables.values():
             self.assertEqual(table.stamps.tolist(), [n * 1000000 for n in range(COUNT)])
             self.assertEqual(table.times.tolist(), [float("0.%03d" % n) for n in range(COUNT)])
@@ -130,11 +152,18 @@ class Reader(BagTest):
         self.assertEqual(tables["status"].texts["failure"], "burst")
         self.assertEqual(Recording(self.bag).text("case"), "title: made here")
 
-    def test_reads_compressed_bags(self):
+    def test_reads_compressed_bags_and_tells_where_they_are_damaged(self):
         packed = self.path("packed.bag")
-        with rosbag.Bag(packed, "w", compression=rosbag.Compression.BZ2) as bag:
-            write_tank(bag, "/wavetank", range(COUNT))
-        self.assertTrue(same_bits(wavetank.read_tables(packed)["probes"].columns["P0"], RANDOM[:, 0]))
+        for compression in (rosbag.Compression.BZ2, rosbag.Compression.LZ4):
+            with rosbag.Bag(packed, "w", compression=compression) as bag:
+                write_tank(bag, "/wavetank", range(COUNT))
+            self.assertTrue(same_bits(wavetank.read_tables(packed)["probes"].columns["P0"], RANDOM[:, 0]))
+            (place, *_) = BagFile(packed)._scan()
+            with open(packed, "r+b") as file:
+                file.seek(place[1])
+                file.write(b"damaged")
+            with self.assertRaisesRegex(wavetank.Failure, "packed.bag' is not whole"):
+                wavetank.read_tables(packed)
 
     def test_takes_the_tank_that_is_named(self):
         two = self.path("two.bag")
@@ -195,7 +224,20 @@ class Export(BagTest):
         out = self.path("csv")
         done = self.run_export(self.bag, "--csv", out)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(len(glob.glob(os.path.join(out, "*.csv"))), 7)
+        self.assertEqual(len(glob.glob(os.path.join(out, "*.csv"))), 11)
+        for name, head in (
+            ("velocities.V1", "time (s),velocity_x (m/s),velocity_y (m/s),velocity_z (m/s)"),
+            ("sections.weir", "time (s),discharge (m^3/s),area (m^2)"),
+            ("bodies.hull.moorings.bow.tension", "time (s),tension (N),anchor_tension (N),lying (m)"),
+        ):
+            with open(os.path.join(out, name + ".csv")) as file:
+                self.assertEqual(file.readline().strip(), head)
+        with open(os.path.join(out, "bodies.hull.imu.csv"), newline="") as file:
+            imu = list(csv.DictReader(file))
+        self.assertTrue(same_bits([float(row["specific_force_z (m/s^2)"]) for row in imu], RANDOM[:, 7]))
+        with open(os.path.join(out, "velocities.V1.csv"), newline="") as file:
+            speeds = numpy.array([float(row["velocity_x (m/s)"]) for row in csv.DictReader(file)])
+        self.assertTrue(numpy.array_equal(speeds, SPEEDS, equal_nan=True))
         with open(os.path.join(out, "probes.csv"), newline="") as file:
             head, *rows = csv.reader(file)
         self.assertEqual(head, ["time (s)"] + ["P%d (Pa)" % k for k in range(8)])

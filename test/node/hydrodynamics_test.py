@@ -163,6 +163,25 @@ class Cases(ProgramTest):
         numpy.testing.assert_allclose(turned["rotation"], [0, 0, 90], atol=1e-12)
         numpy.testing.assert_allclose(turned["inertia"], [2, 1, 3, 0, 0, 0], atol=1e-12)
 
+    def test_what_goes_with_another_motion_is_left_out(self):
+        hull = dict(BOX, wind={"velocity": [5, 0], "area": 0.05}, moorings=[{"anchor": [0, 0.1], "attachment": [0.15, 0.2], "stiffness": 9}], imu=True)
+        paddle = {"name": "paddle", "imu": True, "prescribed": {"waves": {"kind": "regular", "absorption": {"gauge": "front"}}}}
+        gauges = [{"name": "front", "position": [0.1]}, {"name": "far", "position": [0.3]}]
+        instruments = {"imu_rate": 50, "gauge_rate": 50, "wave_gauges": gauges, "pressure_probes": [{}], "velocity_probes": [{}], "sections": [{}]}
+        case = BodyCase(self.case(bodies=[hull, paddle], instruments=instruments), "hull")
+        swung, let_go = case.oscillating("heave", 0.01, 1.0, 1.0, 2.0, None), case.released("heave", 0.01, 1.0, None)
+        for tree in (swung, let_go):
+            self.assertFalse({"wind", "moorings", "imu"} & set(case.body_in(tree)))
+            self.assertNotIn("imu", tree["bodies"][1])
+            self.assertEqual(set(tree["instruments"]), {"rate", "pose_rate", "wave_gauges"})
+            self.assertEqual(tree["instruments"]["wave_gauges"], gauges[:1])  # by which the paddle absorbs
+        alone = BodyCase(self.case(bodies=[hull], instruments=instruments), "hull")
+        self.assertEqual(set(alone.held("heave", 0.01, 1.0, None)["instruments"]), {"rate", "pose_rate"})
+
+    def test_files_that_are_set_lie_beside_the_case_too(self):
+        case = BodyCase(self.case(bodies=[dict(BOX, mesh="a.stl")]), "hull", [("bodies/0/mesh", "hull.stl")])
+        self.assertEqual(case.body["mesh"], self.path("hull.stl"))
+
     def test_settings_take_the_place_of_keys(self):
         case = BodyCase(self.case(bodies=[BOX]), "hull", [("fluid/particles", "500"), ("bodies/0/density", "300"), ("gravity", "[0, 0, -1.6]")])
         self.assertEqual(case.tree["fluid"]["particles"], 500)
@@ -247,7 +266,8 @@ class Program(ProgramTest):
         for name in ("uuv_simulator.xml", "gz.sdf", "stonefish.xml"):
             with open(self.path("out/" + name)) as file:
                 xml.dom.minidom.parseString("<all>%s</all>" % file.read())
-        self.assertEqual(self.hydrodynamics(*command).stdout.count("done before"), 3)
+        os.remove(self.path("out/held_heave_up/out.bag"))
+        self.assertEqual(self.hydrodynamics(*command).stdout.count("done before"), 2)
 
         # a tow into the same folder adds to what is there
         done = self.hydrodynamics(case, "--body", "hull", "--tow", "surge", "--speeds", "0.5", "--out", "out")

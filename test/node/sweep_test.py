@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """sweep: what it makes of its arguments, and the program as a user runs it on a tank of some hundred particles."""
 
+import contextlib
 import csv
 import os
 import signal
@@ -8,11 +9,16 @@ import subprocess
 import sys
 import time
 import unittest
+from unittest import mock
 
+import numpy
 import program_runner
 from program_runner import PACKAGE, ProgramTest
 from wavetank import Failure
-from wavetank.sweep import combinations, read_vary
+from wavetank.recording import Table
+from wavetank.runs import Run, Runner, fingerprint
+from wavetank.sweep import combinations, figures_of, read_vary
+from wavetank.tank_facts import checked
 
 SCRIPT = os.path.join(PACKAGE, "scripts", "sweep")
 
@@ -36,6 +42,86 @@ class Arguments(unittest.TestCase):
         self.assertEqual(runs[1].settings, [("duration", "3"), ("fluid/spacing", "1"), ("tank/box/size", "[1;2]")])
         names = [run.name for run in combinations("c.yaml", [("bodies/0/mass", ["1"]), ("bodies/1/mass", ["2"])], [], [])]
         self.assertEqual(names, ["bodies.0.mass=1+bodies.1.mass=2"])
+
+
+class Figures(unittest.TestCase):
+    def test_a_status_that_was_never_sent_is_no_figure(self):
+        recording = mock.Mock(names=["status"])
+        recording.table.return_value = Table("status", numpy.empty(0, numpy.int64), {}, {})
+        with mock.patch("wavetank.sweep.Recording", return_value=recording):
+            self.assertEqual(figures_of("out.bag", 0.0), {})
+
+
+def end(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+
+
+class Runs(ProgramTest):
+    """Runner, with a program that does what a test wants in the place of wavetank_run."""
+
+    def program(self, script):
+        path = self.path("program")
+        with open(path, "wb") as file:
+            file.write(b'#!/bin/sh\n[ "$1" = --version ] && echo 1 && exit\n' + script)
+        os.chmod(path, 0o755)
+        return mock.patch.dict(os.environ, WAVETANK_RUN=path)
+
+    def do(self, *runs):
+        told = []
+        results = Runner(self.path("out"), tell=told.append).do(list(runs))
+        return results, told
+
+    def test_a_run_whose_bag_was_removed_is_done_again(self):
+        run = Run("one", self.case())
+        with self.program(b': > "$3"\n'):
+            self.assertTrue(self.do(run)[0][0].bag)
+            self.assertEqual(self.do(run)[1], ["[1/1] one: done before"])
+            os.remove(self.path("out/one/out.bag"))
+            (result,), told = self.do(run)
+        self.assertEqual(told[0], "[1/1] one: running")
+        self.assertTrue(os.path.isfile(result.bag))
+
+    def test_files_that_are_set_belong_to_a_run(self):
+        for settings in ([("bodies/0/mesh", "a.stl")], [("bodies/0", "{mesh: a.stl}")]):
+            with open(self.path("a.stl"), "w") as file:
+                file.write("first")
+            run = Run("one", self.case(), settings)
+            before = fingerprint(run, "1")
+            with open(self.path("a.stl"), "w") as file:
+                file.write("second")
+            after = fingerprint(run, "1")
+            self.assertEqual([what for what in before if before[what] != after[what]], ["files that the case names"])
+
+    def test_what_is_not_utf_8_does_no_harm(self):
+        with self.program(b"printf 'wavetank_run: b\\303\\266se \\377\\n' >&2; exit 2\n"):
+            (result,), _ = self.do(Run("one", self.case()))
+            with self.assertRaisesRegex(Failure, "does not take the case: böse \ufffd"):
+                checked("case.yaml")
+        self.assertEqual(result.sentence, "böse \ufffd")
+
+    def test_a_second_interrupt_leaves_nothing_running(self):
+        case = self.case()
+        with self.program(b"trap '' INT\necho $$ > \"$3.pid\"\nwhile :; do sleep 0.05; done\n"):
+            process = subprocess.Popen(
+                [sys.executable, SCRIPT, case, "--vary", "duration=1", "--out", "out"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+            )
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        begin = time.time()
+        while not (os.path.exists(self.path("out/duration=1/out.bag.pid")) and os.path.getsize(self.path("out/duration=1/out.bag.pid"))):
+            self.assertLess(time.time(), begin + 30)
+            time.sleep(0.02)
+        with open(self.path("out/duration=1/out.bag.pid")) as file:
+            ours = int(file.read())
+        self.addCleanup(end, ours)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())  # it waits for its run
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), 130)
+        with self.assertRaises(ProcessLookupError):
+            os.kill(ours, 0)
 
 
 class Program(ProgramTest):

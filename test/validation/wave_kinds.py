@@ -6,7 +6,8 @@ wave_kinds.py WAVETANK_RUN DIRECTORY [KIND[,SPACING]]...
 solitary    by a piston: crest over the height asked for, celerity over √(g(d + H)) with the crest found, along 6 m
 started     a solitary wave, H = 0.3 d, that is there at the start: likewise
 standing    a standing wave that is there at the start: its period over that of linear theory
-focused     a crest of a focused wave: its height, and when and where it is highest
+focused     a crest of a focused wave: its height, and when and where it is highest; of its components at a gauge 0.5 m before the paddle their sum, which
+            linear theory has as the crest, and what of three of them comes to the focus
 irregular   a JONSWAP sea of forty peak periods: H_m0 over that asked for, before the middle of the flume
 flap        regular waves by a flap hinged at the floor: the height, as in waves.py
 absorption  a flume that reflects all, the piston absorbs: what it sends back of what comes, and how far it drifts in its stroke
@@ -22,6 +23,7 @@ import numpy
 import yaml
 
 import waves
+from wavetank.recording import Recording
 from waves import DEPTH, FACE, GRAVITY
 
 SPACING = 0.02  # m, unless told
@@ -112,18 +114,35 @@ def standing(program, base, spacing):
     periods = len(crossings) - 1
     print(
         "standing from the start, H = %g m: period %+.2f %% over %d periods, the first crest %+.1f %%"
-        % (height, 100 * ((crossings[-1] - crossings[0]) / periods * omega / (2 * math.pi) - 1), periods, 100 * (swing[0] / height / math.cos(math.pi * 0.02) - 1))
+        % (
+            height,
+            100 * ((crossings[-1] - crossings[0]) / periods * omega / (2 * math.pi) - 1),
+            periods,
+            100 * (swing[0] / height / math.cos(math.pi * 0.02) - 1),
+        )
     )
 
 
+def amplitudes(times, level, frequencies):
+    """Of the components of a record at these frequencies (Hz), times the record's duration: m s."""
+    turns = numpy.exp(-2j * math.pi * numpy.outer(frequencies, times))
+    return 2 * numpy.abs(turns @ (level - DEPTH)) * (times[1] - times[0])
+
+
 def focused(program, base, spacing):
-    height, period, distance, when = 0.1, 1.2, 4.0, 12.0
-    gauges = FACE + distance + numpy.arange(-0.8, 0.81, 0.1)
+    # a crest of 0.1 m would break before the focus: the sum of its components' steepnesses a k is 0.45, Miche's limit 0.142 π tanh kd 0.38
+    height, period, distance, when = 0.04, 1.2, 4.0, 12.0
+    gauges = numpy.append(FACE + distance + numpy.arange(-0.8, 0.81, 0.1), FACE + 0.5)
     paddle = {"waves": {"kind": "focused", "depth": DEPTH, "height": height, "peak_period": period, "focus": {"distance": distance, "time": when}}}
     times, levels = run(program, base, flume(9.0, spacing, when + 2, gauges, paddle, (6.3, 8.0)))
-    found = numpy.array([crest(times, levels[:, g]) for g in range(len(gauges))])
+    along = len(gauges) - 1
+    found = numpy.array([crest(times, levels[:, g]) for g in range(along)])
     best = int(numpy.argmax(found[:, 1]))
-    at_focus = len(gauges) // 2
+    at_focus = along // 2
+    step = 1 / (times[-1] - times[0])
+    made = step * amplitudes(times, levels[:, along], numpy.arange(0.5 / period, 3 / period, step)).sum()
+    some = numpy.array([1.0, 1.2, 1.45])
+    left = amplitudes(times, levels[:, at_focus], some / period) / amplitudes(times, levels[:, along], some / period)
     print(
         "focused, crest %g m: %+.1f %% at the place asked for, %+.3f s late; %+.1f %% where it is highest, %+.2f m farther on"
         % (
@@ -134,6 +153,10 @@ def focused(program, base, spacing):
             gauges[best] - gauges[at_focus],
         )
     )
+    print(
+        "focused, 0.5 m before the paddle: components sum to %+.1f %% of the crest; at the focus are %s"
+        % (100 * (made / height - 1), ", ".join("%.0f %% of that at %g times the peak's frequency" % (100 * part, f) for part, f in zip(left, some)))
+    )
 
 
 def irregular(program, base, spacing):
@@ -143,7 +166,10 @@ def irregular(program, base, spacing):
     times, levels = run(program, base, flume(6.6, spacing, 46 * period, gauges, paddle, (3.9, 8.0)))
     wanted = times > 6 * period
     found = 4 * levels[wanted].std(axis=0)
-    print("irregular, H_s = %g m: H_m0 %s over 40 peak periods" % (height, ", ".join("%+.1f %% at %g m" % (100 * (h / height - 1), x - FACE) for h, x in zip(found, gauges))))
+    print(
+        "irregular, H_s = %g m: H_m0 %s over 40 peak periods"
+        % (height, ", ".join("%+.1f %% at %g m" % (100 * (h / height - 1), x - FACE) for h, x in zip(found, gauges)))
+    )
 
 
 def flap(program, base, spacing):
@@ -153,20 +179,15 @@ def flap(program, base, spacing):
     paddle = {"point": [FACE, 0], "waves": {"kind": "regular", "direction": "pitch", "hinge": 0, "depth": DEPTH, "height": height, "period": period}}
     times, levels = run(program, base, flume(FACE + 3.5 * length, spacing, 14 * period, gauges, paddle, (FACE + 2.25 * length, 10 / period)))
     found = waves.measured(times, levels, gauges, period)
-    print("flap, H = %g m: height %+.1f %% at the paddle, %+.1f %% a wavelength on" % (height, 100 * (found["height at the paddle"] / height - 1), 100 * (found["height"] / height - 1)))
+    print(
+        "flap, H = %g m: height %+.1f %% at the paddle, %+.1f %% a wavelength on"
+        % (height, 100 * (found["height at the paddle"] / height - 1), 100 * (found["height"] / height - 1))
+    )
 
 
 def poses_of(bag):
-    import rosbag
-
-    times, places = [], []
-    with rosbag.Bag(bag) as messages:
-        start = messages.get_start_time()
-        for topic, message, _ in messages.read_messages():
-            if topic.endswith("/bodies/paddle/odom"):
-                times.append(message.header.stamp.to_sec() - start)
-                places.append(message.pose.pose.position.x)
-    return numpy.array(times), numpy.array(places)
+    table = Recording(bag).table("bodies/paddle/odom")
+    return table.times, table.columns["position_x"]
 
 
 def absorption(program, base, spacing):

@@ -20,6 +20,8 @@ import sys
 import numpy
 import yaml
 
+from wavetank.recording import Recording
+
 DEPTH, GRAVITY, FACE = 0.4, 9.81, 0.3  # m, m/s², m: of the piston at rest
 PERIODS = 6  # looked at
 DEFAULTS = ("1.2,0.1,0.0125,1", "1.2,0.1,0.0125,2", "0.9,0.1,0.0125,2", "1.6,0.1,0.0125,2")
@@ -70,19 +72,24 @@ def case_of(period, height, spacing, order):
             }
         ],
         "numerics": {"walls": {"slip": "free_slip"}, "artificial_viscosity": 0.005},
-        "instruments": {"rate": 100, "wave_gauges": [{"name": "g%d" % k, "position": [x]} for k, x in enumerate(gauges)],
-                        "velocity_probes": [{"name": "v0", "position": [gauges[0], 0.5 * DEPTH]}]},
+        "instruments": {
+            "rate": 100,
+            "wave_gauges": [{"name": "g%d" % k, "position": [x]} for k, x in enumerate(gauges)],
+            "velocity_probes": [{"name": "v0", "position": [gauges[0], 0.5 * DEPTH]}],
+        },
     }
     return case, numpy.array(gauges), length
 
 
 def levels_of(bag):
-    """Times, the levels of every gauge at each, and the horizontal velocity of the probe, which is sampled with them."""
-    from wavetank.recording import Recording
+    """Times, and the levels of every gauge at each."""
+    gauges = Recording(bag).table("gauges")
+    return gauges.times, gauges.array(*gauges.columns)
 
-    recording = Recording(bag)
-    gauges = recording.table("gauges")
-    return gauges.times, gauges.array(*gauges.columns), recording.table("velocities/v0").columns["velocity_x"]
+
+def velocities_of(bag):
+    """Horizontal velocities of the probe, which is sampled with the gauges."""
+    return Recording(bag).table("velocities/v0").columns["velocity_x"]
 
 
 def harmonics(times, levels, period):
@@ -114,7 +121,8 @@ def off_linear_theory(times, level, velocity, period):
     return float(numpy.sqrt(numpy.mean((velocity - velocity.mean() - theory) ** 2) / numpy.mean(theory**2)))
 
 
-def measured(times, levels, velocities, gauges, period):
+def measured(times, levels, gauges, period, velocities=None):
+    """By name; of the velocity only where there are velocities, those of a probe under the first gauge."""
     omega = 2 * math.pi / period
     k, free = wave_number(omega), wave_number(2 * omega)
     end = times[-1]
@@ -127,8 +135,7 @@ def measured(times, levels, velocities, gauges, period):
     twice = numpy.linalg.lstsq(numpy.array([numpy.exp(2j * k_found * x), numpy.exp(1j * free * x)]).T, second, rcond=None)[0]
     length = 2 * math.pi / k
     slope, at_paddle = numpy.polyfit(x, numpy.log(heights(times[wanted], levels[wanted], period)), 1)
-    return {
-        "velocity": off_linear_theory(times[wanted], levels[wanted][:, 0], velocities[wanted], period),
+    found = {
         "height": math.exp(at_paddle + slope * length),
         "height at the paddle": math.exp(at_paddle),
         "first harmonic": 2 * abs(waves[0]),
@@ -138,11 +145,16 @@ def measured(times, levels, velocities, gauges, period):
         "reflected": abs(waves[1] / waves[0]),
         "free": 2 * abs(twice[1]),
     }
+    if velocities is not None:
+        found["velocity"] = off_linear_theory(times[wanted], levels[wanted][:, 0], velocities[wanted], period)
+    return found
 
 
 def main(program, directory, cases):
     os.makedirs(directory, exist_ok=True)
-    print("| T, s | H, m | order | Δx, m | height at the paddle | a wavelength on | first harmonic | wavelength over linear | over third-order theory | loss a wavelength | reflected | free second harmonic | velocity off linear theory |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+    print(
+        "| T, s | H, m | order | Δx, m | height at the paddle | a wavelength on | first harmonic | wavelength over linear | over third-order theory | loss a wavelength | reflected | free second harmonic | velocity off linear theory |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+    )
     for text in cases:
         period, height, spacing, order = (float(number) for number in text.split(","))
         base = os.path.join(directory, "waves_" + text.replace(",", "_"))
@@ -152,8 +164,8 @@ def main(program, directory, cases):
         with open(base + ".log", "w") as log:
             if subprocess.call([program, base + ".yaml", "--bag", base + ".bag"], stdout=log, stderr=log) != 0:
                 sys.exit("waves.py: the simulation failed; '%s.log' tells why." % base)
-        times, levels, velocities = levels_of(base + ".bag")
-        found = measured(times, levels, velocities, gauges, period)
+        times, levels = levels_of(base + ".bag")
+        found = measured(times, levels, gauges, period, velocities_of(base + ".bag"))
         print(
             "| %g | %g | %d | %g | %+.1f %% | %+.1f %% | %+.1f %% | %+.1f %% | %+.1f %% | %.1f %% | %.1f %% | %.1f %% | %.1f %% |"
             % (

@@ -139,13 +139,22 @@ class BagFile:
         compression = header["compression"]
         if compression == b"none":
             return data
+        try:
+            whole = self._decompressor(compression)(data.tobytes())
+        except (OSError, ValueError):
+            raise self._unreadable()
+        if len(whole) != struct.unpack("<I", header["size"])[0]:  # roslz4 takes what is cut short
+            raise self._unreadable()
+        return numpy.frombuffer(whole, dtype=numpy.uint8)
+
+    def _decompressor(self, compression):
         if compression == b"bz2":
-            return numpy.frombuffer(bz2.decompress(data.tobytes()), dtype=numpy.uint8)
+            return bz2.decompress
         try:
             import roslz4
         except ImportError:
             raise Failure("'%s' is compressed by %s: rosbag decompress makes it readable" % (self.path, compression.decode("ascii", "replace")))
-        return numpy.frombuffer(roslz4.decompress(data.tobytes()), dtype=numpy.uint8)
+        return roslz4.decompress
 
 
 def cut(chunk, offsets):

@@ -13,7 +13,8 @@ from wavetank.runs import local_path, named_files, read_case, read_yaml
 
 SHIFTS, TURNS = ("surge", "sway", "heave"), ("roll", "pitch", "yaw")
 DIRECTIONS = SHIFTS + TURNS
-OF_MOTION = ("velocity", "angular_velocity", "prescribed", "command", "forces", "moorings", "water_film")  # keys of a body that go with its motion
+OF_MOTION = ("velocity", "angular_velocity", "prescribed", "command", "forces", "moorings", "water_film", "wind")  # keys of a body that go with its motion
+RATES = ("gauge_rate", "wrench_rate", "energy_rate", "flow_rate", "imu_rate")
 LEAST_RATE = 100.0  # Hz, of what is sampled
 
 
@@ -31,18 +32,28 @@ def set_key(tree, key, value):
         tree[last] = value
 
 
+def absorbing_gauges(tree):
+    """Names of the gauges by which paddles absorb."""
+    if isinstance(tree, dict):
+        absorption = tree.get("absorption")
+        if isinstance(absorption, dict):
+            yield absorption.get("gauge")
+    for value in tree.values() if isinstance(tree, dict) else tree if isinstance(tree, list) else ():
+        yield from absorbing_gauges(value)
+
+
 class BodyCase:
     """A case and one of its bodies. Raises Failure for what cannot be moved."""
 
     def __init__(self, path, name, settings=()):
         self.path, self.name = path, name
         self.tree = read_case(path)
+        for key, text in settings:
+            self._set(key, text)
         for section, key in named_files(self.tree):
             local = local_path(section[key], path)
             if local:
                 section[key] = os.path.abspath(local)
-        for key, text in settings:
-            self._set(key, text)
         bodies = self.tree.get("bodies") or []
         names = [body.get("name") for body in bodies]
         if name not in names:
@@ -155,14 +166,18 @@ class BodyCase:
             body["inertia"] = [float(turned[at]) for at in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
 
     def sample(self, tree, rate):
-        """Sees to it that forces and poses are sampled so often, Hz, and that nothing else is."""
+        """Sees to it that forces and poses are sampled so often, Hz, and that nothing else is, but for gauges by which other bodies' paddles absorb."""
         instruments = tree.setdefault("instruments", {})
         rate = math.ceil(max(rate, LEAST_RATE))
         instruments["rate"] = rate
-        for key in ("gauge_rate", "wrench_rate", "energy_rate", "flow_rate"):
-            instruments.pop(key, None)
         instruments["pose_rate"] = rate
-        instruments.pop("pressure_probes", None)  # one on the body would not move with its start
+        gauges, needed = instruments.get("wave_gauges") or [], set(absorbing_gauges(tree))
+        for key in RATES + ("pressure_probes", "velocity_probes", "sections", "wave_gauges"):  # a probe on the body would not move with its start
+            instruments.pop(key, None)
+        if needed:
+            instruments["wave_gauges"] = [gauge for gauge in gauges if gauge.get("name") in needed]
+        for body in tree["bodies"]:
+            body.pop("imu", None)
 
     def held(self, direction, amount, duration, spacing):
         tree = self.changed("fixed", duration, spacing)

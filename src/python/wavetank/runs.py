@@ -18,6 +18,7 @@ MARKER, BAG, LOG = "run.json", "out.bag", "log.txt"
 STOPPED_BY_WATCHDOG = 3
 INTERRUPTED = (130, 143, -2, -15)
 FILE_KEYS = ("mesh", "file", "urdf")
+TEXT = {"encoding": "utf-8", "errors": "replace"}  # what wavetank_run writes, whatever the locale
 
 
 class Loader(yaml.SafeLoader):
@@ -84,6 +85,14 @@ def named_files(tree):
             yield from named_files(value)
 
 
+def setting_tree(key, text):
+    """What is set, below the last word of its key; without a value that is not YAML, which wavetank_run refuses."""
+    try:
+        return {key.split("/")[-1]: read_yaml(text)}
+    except yaml.YAMLError:
+        return {}
+
+
 def local_path(name, case):
     """Where a file that a case names lies, or None for a shape and for what lies in a package."""
     if name.startswith("file://"):
@@ -103,7 +112,7 @@ def digest(path):
 
 def version_of(program):
     try:
-        return subprocess.run([program, "--version"], stdout=subprocess.PIPE, universal_newlines=True, check=True).stdout.strip()
+        return subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True, **TEXT).stdout.strip()
     except (OSError, subprocess.CalledProcessError) as error:
         raise Failure("'%s' does not run: %s" % (program, error))
 
@@ -112,7 +121,8 @@ def fingerprint(run, program_version):
     """What a finished run must have been made from to count for this one, by the words that tell which of it has changed."""
     tree = read_case(run.case)
     files = {}
-    for section, key in named_files(tree):
+    set_files = [named for key, text in run.settings for named in named_files(setting_tree(key, text))]
+    for section, key in list(named_files(tree)) + set_files:
         path = local_path(section[key], run.case)
         if path and os.path.isfile(path):
             files[section[key]] = digest(path)
@@ -168,6 +178,8 @@ class Runner:
         wanted = fingerprint(run, self._version)
         changed = [what for what in wanted if made_from.get(what) != wanted[what]]
         if not changed:
+            if marker["exit_code"] == 0 and not os.path.isfile(os.path.join(self.out, run.name, BAG)):
+                return None  # its bag was removed
             return marker if marker["exit_code"] in (0, STOPPED_BY_WATCHDOG) else None
         sentence = "'%s' was run before, but not with the same of: %s" % (os.path.join(self.out, run.name), ", ".join(changed))
         if not self._again:
@@ -187,12 +199,17 @@ class Runner:
         began = time.time()
         with open(os.path.join(folder, LOG), "w", encoding="utf-8") as log:
             # in a session of its own, so that Ctrl-C does not reach it by itself
-            process = subprocess.Popen(command + run.options, stdout=log, stderr=subprocess.PIPE, universal_newlines=True, start_new_session=True)
+            process = subprocess.Popen(command + run.options, stdout=log, stderr=subprocess.PIPE, start_new_session=True, **TEXT)
             try:
                 complaints = process.communicate()[1]
             except BaseException:
                 process.send_signal(signal.SIGINT)  # it ends after the step in progress, with a whole bag
-                process.communicate()
+                try:
+                    process.communicate()
+                except BaseException:  # such as a second Ctrl-C
+                    process.kill()
+                    process.wait()
+                    raise
                 raise
             log.write(complaints)
         if process.returncode in INTERRUPTED:

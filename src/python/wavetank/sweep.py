@@ -81,8 +81,9 @@ def figures_of(path, begin):
     """Key figures of a bag by name, unit in brackets: peaks, levels, mean forces from `begin` (s) on, energies at the end, and the time of a step."""
     recording = Recording(path)
     figures = {}
-    if "status" in recording.names:
-        status = recording.table("status").columns
+    table = recording.table("status") if "status" in recording.names else ()
+    if len(table):  # a run that failed at once may have announced it alone
+        status = table.columns
         figures["simulated (s)"] = status["simulated_time"][-1]
         figures["steps"] = int(status["step"][-1])
         rates = status["steps_per_second"][status["steps_per_second"] > 0]

@@ -7,7 +7,7 @@ import numpy
 
 from wavetank import Failure
 from wavetank.linear_waves import GRAVITY, group_speed
-from wavetank.runs import find_program
+from wavetank.runs import TEXT, find_program
 
 
 class TankFacts:
@@ -79,7 +79,7 @@ def origin_of(box):
 
 def checked(path):
     """The report of wavetank_run --check."""
-    done = subprocess.run([find_program(), "--check", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    done = subprocess.run([find_program(), "--check", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, **TEXT)
     if done.returncode != 0:
         lines = done.stderr.strip().splitlines() or ["it ends with exit code %d" % done.returncode]
         raise Failure("wavetank_run does not take the case: %s" % lines[-1].replace("wavetank_run: ", "", 1))
