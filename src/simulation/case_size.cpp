@@ -107,7 +107,7 @@ std::optional<double> draught_of(const Case& scene, std::size_t body, const Tria
   return depth <= size.z() ? std::optional<double>(depth) : std::nullopt;
 }
 
-std::string number(double value) {
+std::string rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
@@ -149,10 +149,10 @@ void tell_of_shallow_water(const Layout& layout) {
   if (layout.particles.size() == layout.beyond) return;  // all of it comes later
   const double depth = least_depth(layout);
   if (!(depth < (fewest_over_depth - 0.01) * layout.spacing)) return;
-  log(LogLevel::warning, "the water is only " + number(depth / layout.spacing) + " spacings deep (" + number(depth) +
-                             " m) over a quarter of " + "its surface or more: fewer than " + number(fewest_over_depth) +
+  log(LogLevel::warning, "the water is only " + rounded(depth / layout.spacing) + " spacings deep (" + rounded(depth) +
+                             " m) over a quarter of " + "its surface or more: fewer than " + rounded(fewest_over_depth) +
                              " particles over its depth cannot tell how it moves; choose a smaller fluid/spacing than " +
-                             number(layout.spacing) + " m");
+                             rounded(layout.spacing) + " m");
 }
 
 }  // namespace wavetank
