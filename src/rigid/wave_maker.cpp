@@ -116,7 +116,7 @@ MotionTerm wave_term(const WaveCase& wave, double gravity, const std::string& re
     }
     return arm > 0 ? angle_of(place, arm) : place;
   };
-  return {wave.direction, at, std::min(2.0 * M_PI / (samples_per_wave * highest), rise / samples_per_period)};
+  return {wave.direction, at, std::min(2.0 * M_PI / (samples_per_wave * highest), rise / samples_per_wave)};
 }
 
 }  // namespace wavetank
