@@ -1,5 +1,6 @@
 #include "wavetank/common/water_waves.h"
 
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
@@ -62,6 +63,16 @@ std::string why_it_breaks(double height, double depth, double wave_number) {
   if (!(wave_number > 0)) return "";
   const double steepest = miche * 2.0 * M_PI / wave_number * std::tanh(wave_number * depth);
   return height > steepest ? "higher than Miche's 0.142 L tanh kd, " + metres(steepest) : "";
+}
+
+std::string why_focus_breaks(double slope, double depth, double wave_number) {
+  const double steepest = miche * M_PI * std::tanh(wave_number * depth);
+  if (!(slope > steepest)) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "where they meet steeper than Miche has it: amplitudes times wave numbers are %.2f together, beyond %.2f, 0.142 π tanh kd",
+                slope, steepest);
+  return text;
 }
 
 SolitaryProfile solitary_profile(double height, double depth, double gravity) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "fluid_filling.h"
 #include "polygon.h"
@@ -51,8 +52,9 @@ std::optional<Column> find_column(const Basin& basin, const FilledRegion& region
 /// The lattice with so many more rows above.
 void add_rows(FilledRegion& region, int rows) {
   const std::size_t before = region.filled.size();
+  const std::size_t cells = checked_cells(region, region.count[2] + rows, region.key);
   region.count[2] += rows;
-  region.filled.resize(static_cast<std::size_t>(region.count[0]) * region.count[1] * region.count[2], 0);
+  region.filled.resize(cells, 0);
   region.position.resize(region.filled.size());
   for (std::size_t c = before; c < region.filled.size(); ++c) {
     const std::size_t column = c % (static_cast<std::size_t>(region.count[0]) * region.count[1]);
@@ -78,9 +80,35 @@ void fill_column(const Basin& basin, FilledRegion& region, int i, int j, const C
   }
 }
 
+/// What leaves a periodic tank at one end comes in at the other, where the surface must be as high.
+void check_seams(const Basin& basin, const InitialState& initial, const FilledRegion& region) {
+  constexpr double tolerance = 0.05;  // of a cell's height
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!basin.periodic[axis] || region.step[axis] == 0) continue;
+    const int last = region.count[axis] - 1, lines = region.count[1 - axis];
+    for (int line = 0; line < lines; ++line) {
+      const auto column = [&](int n) { return axis == 0 ? std::pair(n, line) : std::pair(line, n); };
+      const auto [i, j] = column(0);
+      const auto [far_i, far_j] = column(last);
+      Vector3d low = region.centre(i, j, 0), high = region.centre(far_i, far_j, 0);
+      const double near_end = 0.75 * region.step[axis];  // the region's last cells end there
+      if (low[axis] > basin.domain.min[axis] + near_end || high[axis] < basin.domain.max[axis] - near_end) continue;
+      if (!has_water(region, i, j) || !has_water(region, far_i, far_j)) continue;
+      low[axis] = basin.domain.min[axis];
+      high[axis] = basin.domain.max[axis];
+      const double first = initial.elevation(low), other = initial.elevation(high);
+      if (std::abs(first - other) > tolerance * region.step.z())
+        throw Error(region.key + ": by fluid/initial the surface is raised by " + describe(first) + " m at " + "xy"[axis] + " = " +
+                    describe(low[axis]) + " m and by " + describe(other) + " m at " + "xy"[axis] + " = " + describe(high[axis]) +
+                    " m, which are one place in a tank that is periodic along " + "xy"[axis] + "; make them the same");
+    }
+  }
+}
+
 }  // namespace
 
 void raise_surface(const Basin& basin, const InitialState& initial, FilledRegion& region) {
+  check_seams(basin, initial, region);
   const int rows = region.count[2];
   const double level = region.first.z() + (rows - 0.5) * region.step.z();
   std::vector<std::optional<Column>> columns(static_cast<std::size_t>(region.count[0]) * region.count[1]);

@@ -42,9 +42,7 @@ void visit_neighbours(const FilledRegion& region, const Cell& cell, Visit visit)
 }
 
 void allocate(FilledRegion& region, const std::string& key) {
-  const double cells = static_cast<double>(region.count[0]) * region.count[1] * region.count[2];
-  if (cells > most_cells) throw Error(key + ": more than 1e8 cells; choose a larger fluid/spacing");
-  region.filled.assign(static_cast<std::size_t>(cells), 0);
+  region.filled.assign(checked_cells(region, region.count[2], key), 0);
   region.position.resize(region.filled.size());
   for (std::size_t c = 0; c < region.filled.size(); ++c) region.position[c] = centre_of(region, cell_at(region, c));
   region.volume = region.step.x() * region.step.z() * (region.step.y() > 0 ? region.step.y() : 1.0);
@@ -250,6 +248,12 @@ void check_seed(const Basin& basin, const FloodFill& flood, const std::string& k
 }
 
 }  // namespace
+
+std::size_t checked_cells(const FilledRegion& region, int rows, const std::string& key) {
+  const double cells = static_cast<double>(region.count[0]) * region.count[1] * rows;
+  if (cells > most_cells) throw Error(key + ": more than 1e8 cells; choose a larger fluid/spacing");
+  return static_cast<std::size_t>(cells);
+}
 
 FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const std::string& key) {
   FilledRegion region;

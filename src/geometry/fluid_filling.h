@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "open_space.h"
@@ -28,6 +30,7 @@ struct Basin {
   std::vector<Solid> solids;           ///< closed bodies
   Vector3d up = Vector3d::UnitZ();     ///< unit, against gravity
   Top top;                             ///< of the tank
+  std::array<bool, 3> periodic{};      ///< along x, y, z: the domain repeats itself
 };
 
 /// A free surface that is not level, by columns of a lattice (x fastest): their cells below it are stretched so that they end at it.
@@ -65,9 +68,12 @@ FilledRegion fill_box(const Basin& basin, const Box& box, double spacing, const 
 /// place and for a leak.
 FilledRegion fill_flood(const Basin& basin, const FloodFill& flood, double spacing, const std::string& key);
 
+/// Of the region's lattice with so many rows of cells above each other. Throws Error where they are more than a lattice may have.
+std::size_t checked_cells(const FilledRegion& region, int rows, const std::string& key);
+
 /// Gives a region that is filled to a level a surface that is `initial`'s elevation over it: in each column the water below the surface has
 /// as many cells as fit best, all of one height. For gravity along −z. Throws Error where the surface is over the tank's rim or at its
-/// floor.
+/// floor, where it does not fit together over the ends of a periodic tank, and for too many cells.
 void raise_surface(const Basin& basin, const InitialState& initial, FilledRegion& region);
 
 /// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no

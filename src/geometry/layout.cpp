@@ -148,6 +148,7 @@ Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box&
   basin.domain = domain;
   basin.up = upward(checked);
   basin.top = top_of(checked);
+  basin.periodic = checked.tank.periodic;
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) {
     basin.solids.push_back({checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions});
   }

@@ -59,14 +59,17 @@ bool is_marked(const FilledRegion& region, const std::vector<char>& mark, const 
   return mark[region.index(cell[0], cell[1], cell[2])];
 }
 
-WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int axis, int way) {
+/// A side of a cell whose particle is at `centre`, and whose height is `stretch` times that of the region's cells.
+WallElement lid_element(const FilledRegion& region, const Vector3d& centre, int axis, int way, double stretch) {
   WallElement element;
+  Vector3d side = region.step;
+  side.z() *= stretch;
   element.normal = way * Vector3d::Unit(axis);
   element.tangent = axis == 0 ? Vector3d::UnitZ() : Vector3d::UnitX();
-  element.centre = centre + 0.5 * region.step[axis] * element.normal;
-  element.area = region.volume / region.step[axis];
+  element.centre = centre + 0.5 * side[axis] * element.normal;
+  element.area = region.volume / region.step[axis] * (axis == 2 ? 1.0 : stretch);
   const int along = axis == 0 ? 2 : 0, across = 3 - axis - along;
-  if (region.step[across] > 0) element.elongation = region.step[along] / region.step[across];  // there is no other side in 2-D
+  if (side[across] > 0) element.elongation = side[along] / side[across];  // there is no other side in 2-D
   return element;
 }
 
@@ -87,11 +90,13 @@ double slope_at(const FilledRegion& region, int i, int j, int axis) {
 /// On the surface over a column, inclined as it is.
 WallElement inclined_element(const FilledRegion& region, int i, int j, int k) {
   const double along_x = slope_at(region, i, j, 0), along_y = slope_at(region, i, j, 1);
-  WallElement element = lid_element(region, region.centre(i, j, k), 2, 1);
+  WallElement element = lid_element(region, region.centre(i, j, k), 2, 1, 1.0);
   element.centre.z() = region.curved.height[region.column(i, j)];
   element.normal = Vector3d(-along_x, -along_y, 1.0).normalized();
   element.tangent = Vector3d(1.0, 0.0, along_x).normalized();
   element.area *= std::sqrt(1.0 + along_x * along_x + along_y * along_y);
+  // its side along the tangent is that of the cell, stretched by the slope along x alone; the area gives the other
+  if (region.step.y() > 0) element.elongation = region.step.x() * region.step.x() * (1.0 + along_x * along_x) / element.area;
   return element;
 }
 
@@ -137,11 +142,14 @@ std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std:
             if (is_marked(region, region.filled, neighbour) || is_marked(region, region.taken, neighbour)) continue;
             if (looks_over_surface(region, neighbour, axis)) continue;
             const bool on_surface = side == 5 && !region.curved.top.empty() && region.curved.top[region.column(i, j)] == k;
-            const Vector3d from = on_surface ? region.position[region.index(i, j, k)] : region.centre(i, j, k);
+            const std::size_t own = region.index(i, j, k);
+            Vector3d from = on_surface ? region.position[own] : region.centre(i, j, k);
+            if (!region.curved.top.empty()) from.z() = region.position[own].z();
+            const double stretch = region.curved.stretch.empty() ? 1.0 : region.curved.stretch[own];
             const Vector3d to = from + region.centre(neighbour[0], neighbour[1], neighbour[2]) - region.centre(i, j, k);
             // A little farther than the next centre: a cell that stays empty because it touches a wall needs no lid before that wall.
             if (basin.grid->crosses(from, from + 1.06 * (to - from)) || finder.other(r, to, 0.75 * spacing)) continue;
-            lid.push_back(on_surface ? inclined_element(region, i, j, k) : lid_element(region, from, axis, way));
+            lid.push_back(on_surface ? inclined_element(region, i, j, k) : lid_element(region, from, axis, way, stretch));
           }
         }
       }

@@ -150,7 +150,8 @@ WaterBefore water_before(const Opening& opening, double spacing, const std::vect
       const double before = opening.normal.dot(way);
       if (before < 0 || before > beside_opening * spacing || (way - before * opening.normal).norm() > opening.width + opening.height)
         continue;
-      const double level = region.surface.normal == up ? region.surface.height : up.dot(region.position[c]);
+      double level = region.surface.normal == up ? region.surface.height : up.dot(region.position[c]);
+      if (!region.curved.height.empty()) level = region.curved.height[c % region.curved.height.size()];  // over this column
       water.particles.push_back({region.position[c], level});
     }
   return water;

@@ -129,6 +129,11 @@ double RigidWorld::absorption_taken(std::size_t owner) const {
   return paddle.absorption ? paddle.absorption->taken() : 0.0;
 }
 
+std::vector<double> RigidWorld::absorption_settings(std::size_t owner) const {
+  const RigidOwner& paddle = parts_->owners.at(owner);
+  return paddle.absorption ? paddle.absorption->settings() : std::vector<double>();
+}
+
 RigidState RigidWorld::planned(std::size_t owner, double time) const {
   const RigidOwner& body = parts_->owners.at(owner);
   if (!body.prescribed) throw Error(body.what + " has no prescribed motion");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,13 @@ struct PaddlePlace {
 
 /// A piston's displacement beside that of theory, by which waves that come back pass through it: it goes with their water. A gauge before
 /// it sees them first; what it shows beyond the waves that theory has there goes through filters whose gain and phase at the waves'
-/// frequency are a paddle's (Schäffer and Jakobsen, 2003, of the same kind): two low passes for the time that the waves take from the
-/// gauge, and two high passes, so that neither a wrong level nor a drift moves the paddle. A step depends on nothing but the state.
+/// frequency are a paddle's (Schäffer and Jakobsen, 2003, of the same kind): a low pass of the second order for the time that the waves
+/// take from the gauge, and two high passes, so that neither a wrong level nor a drift moves the paddle. The low pass has the damping with
+/// which shorter waves are sent back least enlarged. A step depends on nothing but the state.
 class WaveAbsorption {
  public:
   /// `case_directory` and `record_path` as for wave_components. Throws Error where the gauge is not well before the paddle, or the tank
-  /// leaves the paddle no room.
+  /// leaves the paddle no room, or not the given reach, or no low pass is stable (where the recall is far too short).
   WaveAbsorption(const WaveCase& wave, double gravity, const PaddlePlace& place, const std::string& record_path, const std::string& what);
 
   /// The gauge's level at the beginning of a step, m; a constant does not count.
@@ -34,11 +36,21 @@ class WaveAbsorption {
   /// How much of its reach it takes, 0 to 1.
   double taken() const;
 
+  /// By linear theory, what the paddle sends over what comes back to it, for small waves of an angular frequency, rad/s.
+  double sent_back(double angular_frequency) const;
+  /// What decides how it moves beside its state: two that agree go on alike from the same state.
+  std::vector<double> settings() const;
+
   static constexpr std::size_t saved_numbers = 8;
   std::vector<double> save() const;
   void restore(const double* values);
 
  private:
+  /// Gain, cut and damping for the waves' frequency, rad/s; false where no damping gives a stable paddle.
+  bool choose_filter(double angular_frequency);
+  void set_filter(double angular_frequency, double lag, double damping);
+  /// Of the level that a gauge shows, the amplitude that the paddle sends, at a frequency of small waves.
+  std::complex<double> answer(double angular_frequency) const;
   double expected(double time) const;
   double acceleration() const;
 
@@ -46,12 +58,15 @@ class WaveAbsorption {
   std::vector<double> wave_numbers_;
   WaveCase wave_;
   double gravity_, to_gauge_, rise_, reach_;
-  double gain_ = 0, delay_ = 0, recall_ = 0;  ///< 1/s, s of each low pass, s of each high pass
+  double gain_ = 0;               ///< 1/s
+  double cut_ = 0, damping_ = 0;  ///< of the low pass: rad/s, over the critical one
+  double recall_ = 0;             ///< s, of each high pass
 
   bool started_ = false;
-  double time_ = 0, seen_ = 0;                ///< s, m
-  double mean_ = 0, first_ = 0, second_ = 0;  ///< m, of the filters
-  double displacement_ = 0, velocity_ = 0;    ///< m, m/s, were there no limit
+  double time_ = 0, seen_ = 0;              ///< s, m
+  double mean_ = 0;                         ///< m, of the first high pass
+  double passed_ = 0, passed_rate_ = 0;     ///< m, m/s, of the low pass
+  double displacement_ = 0, velocity_ = 0;  ///< m, m/s, were there no limit
 };
 
 }  // namespace wavetank

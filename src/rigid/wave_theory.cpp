@@ -143,14 +143,15 @@ WaveFacts wave_facts(const WaveCase& wave, double gravity, const std::string& re
     facts.breaking = why_it_breaks(wave.height, wave.depth, 0);
   } else {
     const std::vector<WaveComponent> components = wave_components(wave, gravity, record_path, what);
-    double variance = 0, strokes = 0;
+    double variance = 0, strokes = 0, slope = 0;
     const WaveComponent* greatest = &components.front();
     const std::optional<double> hinge = is_flap(wave) ? std::optional<double>(wave.hinge) : std::nullopt;
     for (const WaveComponent& component : components) {
       variance += 0.5 * component.amplitude * component.amplitude;
       if (component.amplitude > greatest->amplitude) greatest = &component;
-      const double stroke =
-          component.amplitude / wave_over_stroke(wave_number(component.angular_frequency, wave.depth, gravity), wave.depth, hinge);
+      const double component_number = wave_number(component.angular_frequency, wave.depth, gravity);
+      slope += component.amplitude * component_number;
+      const double stroke = component.amplitude / wave_over_stroke(component_number, wave.depth, hinge);
       strokes += wave.kind == WaveKind::focused ? stroke : stroke * stroke;
     }
     if (wave.kind == WaveKind::record) {
@@ -165,7 +166,10 @@ WaveFacts wave_facts(const WaveCase& wave, double gravity, const std::string& re
     facts.wavelength = 2.0 * M_PI / k;
     facts.celerity = facts.wavelength / facts.period;
     facts.regime = kd < M_PI / 10 ? "shallow" : kd > M_PI ? "deep" : "intermediate";
-    facts.breaking = why_it_breaks(facts.height, wave.depth, k);
+    // a focused wave's height is that of its crest, to which Miche's law of trough to crest does not apply
+    const bool focused = wave.kind == WaveKind::focused;
+    facts.breaking = why_it_breaks(facts.height, wave.depth, focused ? 0.0 : k);
+    if (focused && facts.breaking.empty()) facts.breaking = why_focus_breaks(slope, wave.depth, k);
   }
   facts.ursell = facts.height * facts.wavelength * facts.wavelength / std::pow(wave.depth, 3);
   facts.steepness = facts.height / facts.wavelength;

@@ -209,6 +209,41 @@ void check_absorption(const Case& read, const Setting& root) {
   }
 }
 
+// Waves at the start go on over the ends of a periodic tank. Of the ends of a mesh, the surface itself is looked at when it is filled.
+void check_periodic_start(const Case& read, const InitialWaveCase& waves, const Setting& root) {
+  const auto* tank = std::get_if<BoxTank>(&read.tank.shape);
+  if (tank == nullptr) return;
+  constexpr double tolerance = 1e-3;
+  const double k = wave_number_of(waves, read.gravity.norm());
+  const Vector3d way = waves.direction.normalized();
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!read.tank.periodic[axis] || std::abs(way[axis]) < 1e-9) continue;
+    const std::string along(1, "xy"[axis]);
+    const double length = tank->size[axis], from = tank->origin[axis];
+    if (waves.kind == InitialWaveKind::solitary) {
+      if (std::abs(way[axis]) < 1 - 1e-9)
+        clash(root, "fluid/initial/waves/direction",
+              "askew to " + along + ", along which the tank is periodic, so that the solitary wave passes its end; send it along " + along +
+                  ", or leave " + along + " out of tank/periodic");
+      const double outskirts = solitary_profile(waves.height, waves.depth, read.gravity.norm()).outskirts;
+      for (const double end : {from, from + length}) {
+        const double left = 1.0 / std::pow(std::cosh(outskirts * (way[axis] * end - waves.crest)), 2);  // of the height
+        if (left < tolerance) continue;
+        clash(root, "fluid/initial/waves/crest",
+              number_text(waves.crest) + " m, with which the solitary wave is " + number_text(left * waves.height) + " m high at " + along +
+                  " = " + number_text(end) + " m, an end of the periodic tank, where it must be flat; make the tank longer, or put the " +
+                  "crest in its middle");
+      }
+      continue;
+    }
+    const double held = length * k * std::abs(way[axis]) / (2 * M_PI), whole = std::round(held);
+    if (std::abs(held - whole) > tolerance * std::max(1.0, held))
+      clash(root, std::string("fluid/initial/waves/") + (waves.wavelength ? "wavelength" : "period"),
+            "of waves " + number_text(waves.wavelength.value_or(2 * M_PI / k)) + " m long, of which the tank, periodic along " + along +
+                ", holds " + number_text(held) + " in its " + number_text(length) + " m; it must hold a whole number of them");
+  }
+}
+
 // What water can be at the start.
 void check_initial(const Case& read, const Setting& root) {
   const InitialCase& initial = read.fluid.initial;
@@ -233,6 +268,7 @@ void check_initial(const Case& read, const Setting& root) {
     if (filled_to(read.fluid.fill[f], read) != filled_to(read.fluid.fill[0], read))
       clash(root, join_path("fluid/fill", f),
             "filled to another level than fluid/fill/0, and fluid/initial/waves are over one; fill to the same, or leave them out");
+  check_periodic_start(read, waves, root);
   const std::string breaking = why_it_breaks(waves.height, waves.depth, wave_number_of(waves, read.gravity.norm()));
   if (!breaking.empty())
     clash(root, "fluid/initial/waves/height",

@@ -84,15 +84,15 @@ Section<WaveRecordCase> wave_record_section() {
 Section<WaveAbsorptionCase> absorption_section() {
   Section<WaveAbsorptionCase> section;
   section
-      .key(
-          "gauge", &WaveAbsorptionCase::gauge, nonempty_text(), "",
-          "Name of the wave gauge by which waves that come back are seen: before the paddle, by no more than a quarter of a wavelength; an "
-          "eighth is well.")
+      .key("gauge", &WaveAbsorptionCase::gauge, nonempty_text(), "",
+           "Name of the wave gauge by which waves that come back are seen: before the paddle, by no more than 0.15 of a wavelength; a "
+           "tenth or less is well.")
       .required = true;
   section.key("recall", &WaveAbsorptionCase::recall, number_if_given(greater_than(0)), "s",
               "Time in which the paddle comes back to where the theory has it; if it is left out, four periods, or those of the peak.");
   section.key("reach", &WaveAbsorptionCase::reach, number_if_given(greater_than(0)), "m",
-              "Farthest that absorption takes the paddle from where the theory has it; if it is left out, what the tank leaves.");
+              "Farthest that absorption takes the paddle from where the theory has it, at most, and if it is left out, what the tank and "
+              "the gauge leave.");
   return section;
 }
 

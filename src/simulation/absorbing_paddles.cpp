@@ -40,4 +40,6 @@ void AbsorbingPaddles::look(Solver& solver, double time) {
   }
 }
 
+void AbsorbingPaddles::reset() { told_.assign(told_.size(), false); }
+
 }  // namespace wavetank

@@ -13,6 +13,8 @@ class AbsorbingPaddles {
   AbsorbingPaddles(const Case& settled_case, const Layout& layout, const Solver& solver, RigidWorld& world);
   /// Before the step from `time`. Says once of each paddle that it is near the end of its way.
   void look(Solver& solver, double time);
+  /// From here on it says so again.
+  void reset();
 
  private:
   RigidWorld& world_;

@@ -297,6 +297,7 @@ void Simulation::reset() {
   parts.left_tank.assign(parts.left_tank.size(), false);
   parts.told_of_loss = false;
   parts.told_of_speed = false;
+  parts.paddles.reset();
   parts.recorder.take();
   parts.recorder.start(*parts.solver);
 }

@@ -9,8 +9,8 @@
 namespace wavetank {
 namespace {
 
-/// Tells one geometry, prescribed motions and laws of flow from others (FNV-1a): a case names its meshes and records, but does not hold
-/// them.
+/// Tells one geometry, prescribed motions, absorptions and laws of flow from others (FNV-1a): a case names its meshes and records, but does
+/// not hold them.
 std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWorld& world, const std::vector<FlowLaw>& laws) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto add = [&hash](const double* values, std::size_t count) {
@@ -34,6 +34,10 @@ std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWo
       add(state.position.data(), 3);
       add(state.orientation.coeffs().data(), 4);
     }
+  }
+  for (const std::size_t owner : prescribed) {  // what is planned is without what is absorbed
+    const std::vector<double> settings = world.absorption_settings(owner);
+    add(settings.data(), settings.size());
   }
   for (const FlowLaw& law : laws)
     for (double time = 0; law.is_of_time() && time < end; time += interval) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 
+#include "../../src/geometry/fluid_filling.h"
 #include "geometry_fixture.h"
 
 namespace wavetank {
@@ -60,6 +61,59 @@ TEST(CurvedSurface, RisesFromASeedAndInThreeDimensionsAlike) {
   EXPECT_NEAR(total(flood.volumes), 0.15, 1e-5);
   const Vector3d outwards = Vector3d(-0.1, -0.08, 1).normalized();
   for (const WallElement& element : flood.lid) EXPECT_NEAR((element.normal - outwards).norm(), 0, 1e-9);
+}
+
+// Water that ends in the tank: its side is as high as the water, though the cells there are not as high as a cell of the lattice.
+TEST(CurvedSurface, HasALidAsHighAsItsSide) {
+  Case scene = wavy("0.05");
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1, 0, 0.3)}};
+  double height = 0, moment = 0;
+  for (const WallElement& element : lay_out(scene).lid) {
+    if (element.normal.z() > 0.5) continue;
+    EXPECT_NEAR(element.normal.x(), 1, 1e-12);
+    height += element.area;
+    moment += element.area * element.centre.z();
+  }
+  EXPECT_NEAR(height, 0.35, 1e-6);
+  EXPECT_NEAR(moment, 0.5 * 0.35 * 0.35, 1e-6);
+}
+
+TEST(CurvedSurface, HasInclinedPiecesAsLongAsTheSlope) {
+  Case scene = box_case(Vector3d(1, 0.5, 0.6), 0.3, 0.05);
+  scene.fluid.initial.elevation = "0.3*(x - 0.5)";
+  for (const WallElement& element : lay_out(scene).lid) {
+    if (element.normal.z() < 0.5) continue;
+    EXPECT_NEAR(element.area, 0.05 * 0.05 * std::sqrt(1.09), 1e-9);
+    EXPECT_NEAR(std::sqrt(element.area * element.elongation), 0.05 * std::sqrt(1.09), 1e-9) << "the side along the tangent";
+  }
+}
+
+TEST(CurvedSurface, FitsTheEndsOfAPeriodicTank) {
+  Case scene = wavy("0.05*cos(pi*x)");
+  scene.tank.periodic[0] = true;
+  EXPECT_NO_THROW(lay_out(scene));
+  scene.fluid.initial.elevation = "0.05*x/2";
+  EXPECT_ERROR(lay_out(scene),
+               "fluid/fill/0: by fluid/initial the surface is raised by 0 m at x = 0 m and by 0.05 m at x = 2 m, which are one place in a "
+               "tank that is periodic along x");
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1, 0, 0.3)}};
+  EXPECT_NO_THROW(lay_out(scene)) << "it does not come to the other end";
+}
+
+TEST(CurvedSurface, HasNoMoreCellsThanALatticeMayHave) {
+  Basin basin;
+  basin.dimensions = 2;
+  basin.domain = {Vector3d::Zero(), Vector3d(1, 0, 1e8)};
+  FilledRegion region;
+  region.key = "fluid/fill/0";
+  region.step = Vector3d(0.1, 0, 0.1);
+  region.first = Vector3d(0.05, 0, 0.05);
+  region.count = Vector3i(10, 1, 1);
+  region.filled.assign(10, 1);
+  region.position.resize(10);
+  for (int i = 0; i < 10; ++i) region.position[i] = region.centre(i, 0, 0);
+  const InitialState initial(wavy("2e6"));
+  EXPECT_ERROR(raise_surface(basin, initial, region), "fluid/fill/0: more than 1e8 cells; choose a larger fluid/spacing");
 }
 
 // Under a body the water is as it was; over one that is wholly below the surface it is raised.

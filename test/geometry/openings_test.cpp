@@ -124,6 +124,25 @@ TEST_F(OpeningsTest, WaterBeyondStandsWhereThereIsWaterBefore) {
   EXPECT_NEAR(volume, 0.5 * 0.5, 1e-12);
 }
 
+// The surface is 0.2 m lower before the opening than at the other end.
+TEST_F(OpeningsTest, WaterBeyondStandsAsHighAsATroughBefore) {
+  Case scene = flat_tank();
+  scene.openings[0].kind = OpeningKind::outlet;
+  scene.openings[0].velocity.clear();
+  scene.openings[0].size = std::array<double, 2>{1, 0.8};
+  scene.fluid.initial.elevation = "-0.1*cos(pi*x/2)";
+  const Layout layout = lay_out(scene);
+  ASSERT_GT(layout.beyond, 0u);
+  const double trough = 0.6 - 0.1 * std::cos(M_PI * 0.05 / 2);  // over the first column
+  double volume = 0;
+  for (std::size_t i = layout.particles.size() - layout.beyond; i < layout.particles.size(); ++i) {
+    EXPECT_LT(layout.particles[i].z(), trough);
+    EXPECT_NEAR(layout.levels[i], trough, 1e-9);
+    volume += layout.volumes[i];
+  }
+  EXPECT_NEAR(volume, 0.5 * (trough - 0.1), 1e-9);
+}
+
 TEST_F(OpeningsTest, ALevelIsBetweenTwoRows) {
   Case scene = flat_tank();
   scene.openings[0].centre.z() = 0.5;

@@ -213,6 +213,23 @@ TEST(WaveMaker, ASolitaryWavesPistonGoesWithTheWater) {
   EXPECT_LT(term.at(1e-9).rate, 2e-3);
 }
 
+// Beside the crest's height: of a spectrum's components the short ones are the steep ones.
+TEST(WaveFacts, TellWhereAFocusedWaveBreaks) {
+  WaveCase wave = sea(WaveKind::focused);
+  wave.peak_period = 1.2;
+  wave.height = 0.04;
+  EXPECT_EQ(wave_facts(wave, gravity, "", "body 'paddle'").breaking, "");
+  wave.height = 0.1;
+  double slope = 0;
+  for (const WaveComponent& component : components_of(wave))
+    slope += component.amplitude * wave_number(component.angular_frequency, depth, gravity);
+  EXPECT_NEAR(slope, 0.45, 0.02);
+  const std::string breaking = wave_facts(wave, gravity, "", "body 'paddle'").breaking;
+  char together[40];
+  std::snprintf(together, sizeof together, "are %.2f together, beyond 0.38", slope);
+  EXPECT_NE(breaking.find(together), std::string::npos) << breaking;
+}
+
 TEST(WaveFacts, TellWhatComes) {
   const auto facts = [](const WaveCase& wave) { return wave_facts(wave, gravity, "", "body 'paddle'"); };
   const WaveFacts middle = facts(regular(0.1, 1.2));

@@ -157,6 +157,11 @@ INSTANTIATE_TEST_SUITE_P(
               "duration: 2",
               "duration: 2\ngravity: [9.81, 0]",
               {"fluid/initial/waves is given, which is for gravity along −z"}},
+        Fault{"NoWholeWavesInAPeriodicTank",
+              "box: {size: [6, 1]}",
+              "box: {size: [6.5, 1]}\n  periodic: [x]",
+              {"case.yaml:7: fluid/initial/waves/wavelength is of waves 3 m long, of which the tank, periodic along x, holds 2.1666",
+               "in its 6.5 m; it must hold a whole number of them"}},
         Fault{"ElevationOfHeight",
               linear,
               "elevation: 0.1*z",
@@ -164,6 +169,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "ElevationThatIsNone", linear, "elevation: 0.1*sin(", {"case.yaml:7: fluid/initial/elevation: \"0.1*sin(\" is no expression"}}),
     [](const testing::TestParamInfo<Fault>& info) { return info.param.name; });
+
+TEST(WavesAtTheStart, FitAPeriodicTank) {
+  const std::string periodic = replaced(at_start, "box: {size: [6, 1]}", "box: {size: [6, 1]}\n  periodic: [x]");
+  EXPECT_EQ(error_of(periodic), "(no error)");
+  EXPECT_EQ(error_of(replaced(periodic, linear, "waves: {kind: linear, depth: 0.4, height: 0.02, wavelength: 2.9999}")), "(no error)");
+  // β = √(3H/(4d²(d + H))) = 0.968/m: after 1 m 44 % of the height, after 5 m 0.03 %
+  const std::string solitary = replaced(periodic, "size: [6, 1]", "size: [10, 1]");
+  EXPECT_EQ(error_of(replaced(solitary, linear, "waves: {kind: solitary, depth: 0.4, height: 0.1, crest: 5}")), "(no error)");
+  const std::string message = error_of(replaced(solitary, linear, "waves: {kind: solitary, depth: 0.4, height: 0.1, crest: 1}"));
+  EXPECT_TRUE(contains(message, "fluid/initial/waves/crest is 1 m, with which the solitary wave is 0.04")) << message;
+  EXPECT_TRUE(contains(message, "m high at x = 0 m, an end of the periodic tank")) << message;
+}
 
 TEST(WavesAtTheStart, AreReadAndWritten) {
   EXPECT_EQ(error_of(at_start), "(no error)");

@@ -13,6 +13,10 @@ double wave_number(double angular_frequency, double depth, double gravity);
 /// `wave_number` of 0 stands for a solitary wave, of which only the first is asked.
 std::string why_it_breaks(double height, double depth, double wave_number);
 
+/// The same of waves whose crests meet: `slope`, the sum of their amplitudes times wave numbers, against Miche's π H/L = 0.142 π tanh kd of
+/// the peak's `wave_number`, 1/m.
+std::string why_focus_breaks(double slope, double depth, double wave_number);
+
 /// A solitary wave: Rayleigh's profile η = H sech²(β(x − ct)), β² = 3H/(4d²(d + H)), c² = g(d + H).
 struct SolitaryProfile {
   double height = 0, depth = 0;  ///< m

@@ -92,6 +92,8 @@ class RigidWorld {
   void see_waves(std::size_t owner, double time, double level);
   /// How much of the way that it may take for that it has taken, 0 to 1.
   double absorption_taken(std::size_t owner) const;
+  /// What decides how such a paddle absorbs, beside its state: numbers to compare, of no use beside. Empty for another body.
+  std::vector<double> absorption_settings(std::size_t owner) const;
   /// Where a prescribed motion has an owner at a time, whatever it has absorbed. Throws Error for one that is not prescribed.
   RigidState planned(std::size_t owner, double time) const;
 
