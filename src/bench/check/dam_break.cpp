@@ -10,9 +10,9 @@
 namespace wavetank::bench {
 namespace {
 
-constexpr double flow_time = 1.0;      // s
-constexpr double spacing = 0.55 / 18;  // m: 24 thousand particles
-constexpr double impulse_from = 0.35;  // s, as config/spheric2_key_figures.csv has it
+constexpr double flow_time = 1.0;             // s
+constexpr double spacing_of_dam = 0.55 / 18;  // m: 24 thousand particles
+constexpr double impulse_from = 0.35;         // s, as config/spheric2_key_figures.csv has it
 
 /// Lost at most, J: all of the potential energy over that of the same water spread over the floor of the tank.
 double spendable_energy(const EnergySample& start, double depth, double spread_depth) {
@@ -22,7 +22,7 @@ double spendable_energy(const EnergySample& start, double depth, double spread_d
 Case dam_break_for(const compute::DeviceInfo& device) {
   BenchCase spheric2;
   spheric2.name = "dam break";
-  spheric2.spacing = spacing;
+  spheric2.spacing = spacing_of_dam;
   spheric2.smoothing = 1.5;
   Case scene = make_case(spheric2, device.indices());
   scene.instruments.pressure_probes = {{"P1", Vector3d(0.8245, 0.4745, 0.021), "box"}, {"P2", Vector3d(0.8245, 0.4745, 0.061), "box"}};

@@ -10,7 +10,7 @@
 namespace wavetank::bench {
 namespace {
 
-constexpr double length = 0.8, width = 0.4, depth = 0.32, density = 1000, gravity = 9.81;
+constexpr double length = 0.8, width = 0.4, tank_depth = 0.32, density = 1000, weight_of_kilogram = 9.81;
 constexpr int spray = 60;  // particles, high above the water and in no order: tiles of them lie apart
 constexpr unsigned seed = 2024;
 
@@ -26,7 +26,7 @@ Case column() {
   Case scene;
   scene.fluid.density = density;
   scene.fluid.spacing = 0.04;
-  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.4, width, depth)}};
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.4, width, tank_depth)}};
   scene.tank.shape = BoxTank{Vector3d(length, width, 0.5), Vector3d::Zero(), false};
   BodyCase box;
   box.name = "box";
@@ -42,9 +42,9 @@ Layout disordered(Layout layout) {
     for (int axis = 0; axis < 3; ++axis) particle[axis] += between(-0.15, 0.15) * layout.spacing;
   for (int k = 0; k < spray; ++k) {
     const double x = between(0.02, length - 0.02), y = between(0.02, width - 0.02);
-    layout.particles.emplace_back(x, y, between(depth + 0.01, 1.2));
+    layout.particles.emplace_back(x, y, between(tank_depth + 0.01, 1.2));
     layout.volumes.push_back(layout.volumes.front());
-    layout.levels.push_back(depth);
+    layout.levels.push_back(tank_depth);
   }
   return layout;
 }
@@ -100,14 +100,14 @@ std::vector<Check> differences(const std::string& name, const Outcome& a, const 
   // Sums in another order: some roundings (6e-8) of the largest terms, 1e-7 for places and speeds and 3e-7 for pressures and forces on
   // pocl. A device's compiler may round on the way in other places for each class; a neighbour left out is 1e-3 and more.
   constexpr double few_pairs = 4, rounding_of_places = 2e-6, rounding_of_speeds = 1e-5, rounding_of_pressures = 1e-4;
-  const double pressure = density * gravity * depth, speed = std::sqrt(gravity * depth);
+  const double pressure = density * weight_of_kilogram * tank_depth, speed = std::sqrt(weight_of_kilogram * tank_depth);
   const double pairs = std::abs(static_cast<double>(a.pairs.pairs) - static_cast<double>(b.pairs.pairs));
-  const double places = greatest(a.positions.size(), [&](std::size_t i) { return (a.positions[i] - b.positions[i]).norm() / depth; });
+  const double places = greatest(a.positions.size(), [&](std::size_t i) { return (a.positions[i] - b.positions[i]).norm() / tank_depth; });
   const double speeds = greatest(a.velocities.size(), [&](std::size_t i) { return (a.velocities[i] - b.velocities[i]).norm() / speed; });
   const double pressures =
       greatest(a.pressures.size(), [&](std::size_t i) { return std::abs(a.pressures[i] - b.pressures[i]) / pressure; });
   const double forces = greatest(4 * a.wrenches.size(), [&](std::size_t k) {
-    return (a.wrenches[k / 4][k % 4] - b.wrenches[k / 4][k % 4]).norm() / (pressure * width * depth);
+    return (a.wrenches[k / 4][k % 4] - b.wrenches[k / 4][k % 4]).norm() / (pressure * width * tank_depth);
   });
   const auto within = [&](const std::string& what, double value, double most, const char* unit) {
     return Check{name + ": " + what, value, 0, most, unit};
