@@ -30,6 +30,10 @@ def milliseconds(count):
     return [i * 1000000 for i in range(count)]
 
 
+# Waves of a few spacings, in three dimensions, for a picture in minutes: --check says so, and their pages too.
+COARSE_SEAS = ("boat_in_a_sea.yaml", "wave_basin_robot.yaml")
+
+
 class DemoCases(ProgramTest):
     def test_each_is_sound(self):
         cases = sorted(glob.glob(os.path.join(PACKAGE, "config", "*.yaml")))
@@ -38,7 +42,9 @@ class DemoCases(ProgramTest):
             with self.subTest(os.path.basename(case)):
                 result = self.run_program("--check", case, "--set", "numerics/packing/iterations=0")
                 self.assert_runs(result)
-                self.assertEqual(result.stderr, "")
+                coarse = [line for line in result.stderr.splitlines() if "spacings high: fewer than 8 decay" in line]
+                self.assertEqual(len(coarse), 1 if os.path.basename(case) in COARSE_SEAS else 0)
+                self.assertEqual([line for line in result.stderr.splitlines() if line not in coarse], [])
 
     def test_gauges_of_the_tanks_at_rest_read_its_level(self):
         for name, level, tolerance in [("still_tank_3d.yaml", 0.36, 0.01), ("hydrostatic_2d.yaml", 0.092, 0.002)]:
