@@ -122,14 +122,20 @@ TEST(Moorings, ASpringTellsItsTensionAndItsEnds) {
   EXPECT_LT((moorings[0].line[1] - line.attachment).norm(), 1e-12);
 }
 
-// A buoy on a heavy line, lifted by more than its weight: where it comes to rest, lift, weight and line are in balance.
-TEST(Moorings, ACatenaryHoldsABuoyWhereItsPullBalances) {
+/// To the middle of the buoy.
+MooringCase catenary_from(const Vector3d& anchor, double length, double weight) {
   MooringCase line;
   line.line = MooringLine::catenary;
-  line.anchor = {3, 2, 2};
+  line.anchor = anchor;
   line.attachment = {6, 2, 6};
-  line.length = 5.2;
-  line.weight = 30;
+  line.length = length;
+  line.weight = weight;
+  return line;
+}
+
+// A buoy on a heavy line, lifted by more than its weight: where it comes to rest, lift, weight and line are in balance.
+TEST(Moorings, ACatenaryHoldsABuoyWhereItsPullBalances) {
+  MooringCase line = catenary_from(Vector3d(3, 2, 2), 5.2, 30);
   line.axial_stiffness = 1e5;
   Case scene = moored(line);
   scene.bodies[0].rigid.centre_of_mass = Vector3d(6, 2, 6);
@@ -154,12 +160,7 @@ TEST(Moorings, ACatenaryHoldsABuoyWhereItsPullBalances) {
 }
 
 TEST(Moorings, AStiffCatenaryIsStable) {
-  MooringCase line;
-  line.line = MooringLine::catenary;
-  line.anchor = {6, 2, 2};
-  line.attachment = {6, 2, 6};
-  line.length = 4;
-  line.weight = 1;
+  MooringCase line = catenary_from(Vector3d(6, 2, 2), 4, 1);
   line.axial_stiffness = 1e9;
   Case scene = moored(line);
   scene.gravity = {0, 0, -gravity};
@@ -176,12 +177,7 @@ TEST(Moorings, AStiffCatenaryIsStable) {
 }
 
 TEST(Moorings, ThatAreTautAndDoNotStretchAreRefused) {
-  MooringCase line;
-  line.line = MooringLine::catenary;
-  line.anchor = {6, 2, 2};
-  line.attachment = {6, 2, 6};
-  line.length = 4;
-  line.weight = 1;
+  MooringCase line = catenary_from(Vector3d(6, 2, 2), 4, 1);
   EXPECT_EQ(error_of([&] { Trial run(moored(line), 1e-3); }),
             "body 'buoy': mooring 0 (counted from 0) is taut: its ends are 4 m apart, and its length of 4 m does not stretch; give its "
             "axial_stiffness, or make it longer");

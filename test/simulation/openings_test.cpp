@@ -55,7 +55,19 @@ Balance balance_of(const Simulation& simulation) {
   return balance;
 }
 
-using Openings = SimulationTest;
+class Openings : public SimulationTest {
+ protected:
+  /// A run that goes on from a snapshot is, bit for bit, the one that it was saved from.
+  void expect_to_go_on_from_a_snapshot(const Case& scene) {
+    Simulation first(scene), second(scene);
+    run_steps(first, 150);
+    first.save(path("middle"));
+    const Samples rest = run_steps(first, 100);
+    second.restore(path("middle"));
+    EXPECT_TRUE(same(rest, run_steps(second, 100)));
+    EXPECT_EQ(snapshot(first), snapshot(second));
+  }
+};
 
 /// By id.
 std::map<std::uint32_t, Eigen::Vector3f> places_of(const Simulation& simulation) {
@@ -386,15 +398,7 @@ TEST_F(Openings, OfABodyThatMovesCarryTheirLattice) {
   }
 }
 
-TEST_F(Openings, OfABodyThatMovesRepeatFromASnapshot) {
-  Simulation first(swinging_nozzle("0.8")), second(swinging_nozzle("0.8"));
-  run_steps(first, 150);
-  first.save(path("middle"));
-  const Samples rest = run_steps(first, 100);
-  second.restore(path("middle"));
-  EXPECT_TRUE(same(rest, run_steps(second, 100)));
-  EXPECT_EQ(snapshot(first), snapshot(second));
-}
+TEST_F(Openings, OfABodyThatMovesRepeatFromASnapshot) { expect_to_go_on_from_a_snapshot(swinging_nozzle("0.8")); }
 
 // What leaves comes back: a channel that drives itself keeps its water, and what an outlet pumps the inlet brings.
 TEST_F(Openings, BringBackWhatLeavesAtAnother) {
@@ -587,16 +591,7 @@ TEST_F(Openings, BetweenGhostsStillWaterStaysStillBeforeHoles) {
   EXPECT_EQ(balance_of(with).out, 0);
 }
 
-TEST_F(Openings, BetweenGhostsRepeatFromASnapshot) {
-  const Case scene = ghost_channel(0.5);
-  Simulation first(scene), second(scene);
-  run_steps(first, 150);
-  first.save(path("middle"));
-  const Samples rest = run_steps(first, 100);
-  second.restore(path("middle"));
-  EXPECT_TRUE(same(rest, run_steps(second, 100)));
-  EXPECT_EQ(snapshot(first), snapshot(second));
-}
+TEST_F(Openings, BetweenGhostsRepeatFromASnapshot) { expect_to_go_on_from_a_snapshot(ghost_channel(0.5)); }
 
 // A slot in the floor, ten spacings wide, with air below it, lets as much out as between walls by integrals.
 TEST_F(Openings, BetweenGhostsWaterLeavesByASlot) {
