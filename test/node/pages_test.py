@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""The pages of docs/: links lead to pages and headings that are there, the tutorial's cases are cases, and every page is in the site's list."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+DOCS = os.path.join(ROOT, "docs")
+
+
+def pages():
+    found = [os.path.join(ROOT, name) for name in os.listdir(ROOT) if name.endswith(".md")]
+    for folder, _, names in os.walk(DOCS):
+        found += [os.path.join(folder, name) for name in names if name.endswith(".md")]
+    return sorted(found)
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def without_code(text):
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"(?ms)^```.*?^```", "", text))
+
+
+def anchors(path):
+    """As GitHub and mkdocs name headings: small letters, blanks as hyphens, without other marks."""
+    names = set()
+    for heading in re.findall(r"(?m)^#+ (.*)$", re.sub(r"(?ms)^```.*?^```", "", text_of(path))):
+        words = re.sub(r"[^\w\- ]", "", heading.strip().lower())
+        names.add(words.replace(" ", "-"))
+    return names
+
+
+class Pages(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        count = 0
+        for page in pages():
+            for link in re.findall(r"\[[^]]*\]\(([^)\s]+)\)", without_code(text_of(page))):
+                if "://" in link:
+                    continue
+                target, _, anchor = link.partition("#")
+                path = os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page
+                with self.subTest(page=os.path.relpath(page, ROOT), link=link):
+                    self.assertTrue(os.path.exists(path), "leads nowhere")
+                    if anchor:
+                        self.assertIn(anchor, anchors(path))
+                count += 1
+        self.assertGreater(count, 100)
+
+    def test_every_page_is_in_the_site(self):
+        listed = set(re.findall(r"[\w/]+\.md", text_of(os.path.join(ROOT, "mkdocs.yml"))))
+        self.assertEqual(listed, {os.path.relpath(page, DOCS) for page in pages() if page.startswith(DOCS)})
+
+
+class Tutorial(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def test_its_cases_are_taken(self):
+        cases = []
+        for page in sorted(os.listdir(os.path.join(DOCS, "tutorial"))):
+            text = text_of(os.path.join(DOCS, "tutorial", page))
+            for mesh, name in re.findall(r"(?m)^cp (meshes/\S+) (\S+)$", text):
+                shutil.copy(os.path.join(ROOT, mesh), os.path.join(self.folder, name))
+            blocks = re.findall(r"(?ms)`([\w.]+\.(?:yaml|urdf))`[.:]\n\n```(?:yaml|xml)\n(.*?)^```", text)
+            self.assertEqual(len(blocks), len(re.findall(r"(?m)^```(?:yaml|xml)$", text)), page + ": a file without a name before it")
+            for name, content in blocks:
+                with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+                if name.endswith(".yaml"):
+                    cases.append(name)
+        self.assertEqual(len(cases), 4)
+        for case in cases:
+            with self.subTest(case=case):
+                check = subprocess.run(
+                    [os.environ["WAVETANK_RUN"], "--check", case], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True
+                )
+                self.assertEqual(check.returncode, 0, check.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
