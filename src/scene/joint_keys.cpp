@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "joint_command_keys.h"
 #include "motion_values.h"
 
 namespace wavetank::scene {
@@ -60,20 +61,7 @@ Section<SixLimits> six_limits_section() {
 
 Section<JointCommandCase> joint_command_section() {
   Section<JointCommandCase> section;
-  section.key("quantity", &JointCommandCase::quantity,
-              choice<JointQuantity>({{"effort", JointQuantity::effort}, {"velocity", JointQuantity::velocity}}), "",
-              "What is commanded: a force or torque, or the joint's velocity, which is held by one.");
-  section.key("greatest_effort", &JointCommandCase::greatest_effort, number_or_none(greater_than(0)), "N or N·m",
-              "Limit of the force or torque, of either quantity; in 2-D a metre of width.");
-  section.key("greatest_velocity", &JointCommandCase::greatest_velocity, number_or_none(greater_than(0)), "m/s or rad/s",
-              "Limit of a velocity that is commanded.");
-  section.key("timeout", &JointCommandCase::timeout, number(at_least(0)), "s",
-              "Of simulated time without a command, after which an effort ends and a velocity is 0; 0 = never.");
-  section.rule([](const JointCommandCase& command, const Setting& map, const std::string& path, const Context&) {
-    if (command.greatest_velocity && command.quantity != JointQuantity::velocity)
-      refuse_key(map, path, "greatest_velocity",
-                 "is of the quantity velocity only; leave it out, or set " + join_path(path, "quantity") + " to that");
-  });
+  add_joint_command_keys(section, number_or_none, "; in 2-D a metre of width", "");
   return section;
 }
 

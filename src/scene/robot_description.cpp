@@ -192,7 +192,28 @@ class Robot {
     joint.axis = axis(from, place_of(link));
     joint.limits = limits(from);
     if (from.dynamics) add_dynamics(from, joint);
+    joint.command = command(from);
     return joint;
+  }
+
+  /// What of it the case leaves out is the URDF's own limit, of which 0 is none.
+  std::optional<JointCommandCase> command(const urdf::Joint& from) const {
+    for (const RobotCommandCase& wanted : placement_.commands) {
+      if (wanted.joint != from.name) continue;
+      JointCommandCase command = wanted;
+      if (!from.limits) return command;
+      if (!command.greatest_effort) command.greatest_effort = limit(from, "effort", from.limits->effort);
+      if (!command.greatest_velocity && command.quantity == JointQuantity::velocity)
+        command.greatest_velocity = limit(from, "velocity", from.limits->velocity);
+      return command;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<double> limit(const urdf::Joint& from, const std::string& what, double value) const {
+    if (!(value >= 0) || !std::isfinite(value))
+      throw Error(named(from) + " has the limit " + what + " " + number_text(value) + "; it must be a number at least 0");
+    return value > 0 ? std::optional<double>(value) : std::nullopt;
   }
 
   std::string parent_name(const urdf::Link& link) const {

@@ -1,9 +1,18 @@
 #include "robot_keys.h"
 
+#include "joint_command_keys.h"
 #include "section.h"
 
 namespace wavetank::scene {
 namespace {
+
+Section<RobotCommandCase> robot_command_section() {
+  Section<RobotCommandCase> section;
+  section.key("joint", &RobotCommandCase::joint, name(), "", "A hinge or slider of the robot, by its name in the URDF.").required = true;
+  const std::string left_out = "; if it is left out, that of the URDF's `limit`, if there is one";
+  add_joint_command_keys(section, number_if_given, left_out, left_out);
+  return section;
+}
 
 Section<RobotCase> robot_section() {
   Section<RobotCase> section;
@@ -21,6 +30,8 @@ Section<RobotCase> robot_section() {
   section.key("rotation", &RobotCase::rotation, angles(), "°", "Of the root link: roll, pitch and yaw about the fixed axes x, y, z.");
   section.key("motion", &RobotCase::motion, choice<Motion>({{"free", Motion::free}, {"fixed", Motion::fixed}}), "",
               "Of the root link; `fixed` welds it to the tank, as does a root link named world. All other links are free.");
+  section.key("commands", &RobotCase::commands, list_of(robot_command_section()), "",
+              "Joints whose effort or velocity is commanded while it runs, over `~joints/<name>/command`; all others move freely.");
   section.rule([](const RobotCase&, const Setting& map, const std::string& path, const Context& context) {
     if (context.dimensions != 2) return;
     throw Error(

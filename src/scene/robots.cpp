@@ -62,6 +62,27 @@ void add_parts(const RobotParts& parts, const std::string& source, Case& read) {
   }
 }
 
+/// Each command is of a joint of the robot that can have one, and is the only one of that joint.
+void check_commands(const RobotCase& robot, const RobotParts& parts, const Setting& root, const std::string& path) {
+  for (std::size_t k = 0; k < robot.commands.size(); ++k) {
+    const std::string& wanted = robot.commands[k].joint;
+    const std::string place = join_path(join_path(path, k), "joint");
+    const auto refuse = [&](const std::string& text) {
+      throw Error(nearest_setting(root, place).place.describe() + ": " + place + " is " + wanted + text);
+    };
+    std::string names;
+    bool found = false;
+    for (const JointCase& joint : parts.joints) {
+      if (joint.type != JointType::hinge && joint.type != JointType::slider) continue;
+      names += (names.empty() ? "" : ", ") + joint.name;
+      found = found || joint.name == wanted;
+    }
+    if (!found) refuse("; it must be a hinge or slider of the robot" + (names.empty() ? ", which has none" : ": one of " + names));
+    for (std::size_t other = 0; other < k; ++other)
+      if (robot.commands[other].joint == wanted) refuse(", as another one before it; a joint has one command");
+  }
+}
+
 }  // namespace
 
 void build_robots(Case& read, const Setting& root, const Surroundings& surroundings) {
@@ -74,7 +95,9 @@ void build_robots(Case& read, const Setting& root, const Surroundings& surroundi
       const std::string path = join_path(join_path("robots", i), robot.urdf.empty() ? "parameter" : "urdf");
       throw Error(nearest_setting(root, path).place.describe() + ": " + path + ": " + error.what());
     }
-    add_parts(robot_parts(description.text, description.source, description.directory, robot), description.source, read);
+    const RobotParts parts = robot_parts(description.text, description.source, description.directory, robot);
+    check_commands(robot, parts, root, join_path(join_path("robots", i), "commands"));
+    add_parts(parts, description.source, read);
   }
   read.robots.clear();
 }

@@ -58,6 +58,12 @@ class Pages(unittest.TestCase):
         self.assertEqual(listed, {os.path.relpath(page, DOCS) for page in pages() if page.startswith(DOCS)})
 
 
+class Version(unittest.TestCase):
+    def test_is_the_packages(self):
+        (version,) = re.findall(r"<version>(.*)</version>", text_of(os.path.join(ROOT, "package.xml")))
+        self.assertEqual(re.findall(r"(?m)^version: (.*)$", text_of(os.path.join(ROOT, "CITATION.cff"))), [version])
+
+
 class Tutorial(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()

@@ -189,6 +189,37 @@ TEST(Robot, JointsHaveTheirNamesPlacesAndAxes) {
   EXPECT_EQ(weld.child, "paddle");
 }
 
+TEST(Robot, JointsAreCommandedWithinTheUrdfsLimitsOrTheCases) {
+  const auto with = [](const std::string& commands) {
+    return read_case_text(case_with("{urdf: " + arm_file + ", commands: [" + commands + "]}"), "case.yaml");
+  };
+  const Case read = with("{joint: shoulder, quantity: velocity}, {joint: rod, greatest_effort: 3, timeout: 2}");
+  const JointCase& shoulder = joint(read, "shoulder");
+  ASSERT_TRUE(shoulder.command);
+  EXPECT_EQ(shoulder.command->quantity, JointQuantity::velocity);
+  EXPECT_EQ(shoulder.command->greatest_effort, 10);
+  EXPECT_EQ(shoulder.command->greatest_velocity, 1);
+  const JointCase& rod = joint(read, "rod");
+  ASSERT_TRUE(rod.command);
+  EXPECT_EQ(rod.command->greatest_effort, 3);
+  EXPECT_FALSE(rod.command->greatest_velocity);  // of an effort there is none
+  EXPECT_EQ(rod.command->timeout, 2);
+  EXPECT_FALSE(joint(read, "paddle_joint").command);
+  const Case again = read_case_text(write_case(read), "written");
+  ASSERT_TRUE(joint(again, "shoulder").command);
+  EXPECT_EQ(joint(again, "shoulder").command->greatest_effort, 10);
+
+  const auto error = [](const std::string& commands) {
+    return error_of(case_with("{urdf: " + arm_file + ", commands: [" + commands + "]}"));
+  };
+  EXPECT_EQ(error("{joint: rod}, {joint: wrist}"),
+            "case.yaml:5: robots/0/commands/1/joint is wrist; it must be a hinge or slider of the robot: one of rod, shoulder");
+  EXPECT_TRUE(contains(error("{joint: paddle_joint}"), "robots/0/commands/0/joint is paddle_joint; it must be a hinge or slider"));
+  EXPECT_TRUE(contains(error("{joint: rod}, {joint: rod}"), "robots/0/commands/1/joint is rod, as another one before it"));
+  EXPECT_TRUE(contains(error("{joint: rod, greatest_velocity: 1}"), "is of the quantity velocity only"));
+  EXPECT_TRUE(contains(error("{quantity: effort}"), "robots/0/commands/0/joint"));
+}
+
 TEST(Robot, AFixedRootStandsAndTheRestIsFree) {
   const Case read = read_case_text(case_with("{urdf: " + arm_file + ", motion: fixed}"), "case.yaml");
   EXPECT_EQ(body(read, "base").motion, Motion::fixed);

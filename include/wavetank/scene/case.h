@@ -359,6 +359,11 @@ struct JointCase {
   std::optional<JointCommandCase> command;
 };
 
+/// Of a joint of a robot. What it leaves out of the greatest effort and velocity is the URDF's `limit`, if that has it.
+struct RobotCommandCase : JointCommandCase {
+  std::string joint;  ///< its name in the URDF
+};
+
 /// A robot described in URDF, which reading a case turns into bodies and joints: a case that has been read has none of these.
 struct RobotCase {
   std::string urdf;                      ///< file: package://, file://, absolute, or relative to the case file; or else ...
@@ -366,6 +371,7 @@ struct RobotCase {
   Vector3d position = Vector3d::Zero();  ///< m, of the root link's origin
   Vector3d rotation = Vector3d::Zero();  ///< rad, of the root link, roll-pitch-yaw about fixed axes
   Motion motion = Motion::free;          ///< of the root link: free or fixed
+  std::vector<RobotCommandCase> commands;
 };
 
 /// What water does at an opening.
