@@ -79,6 +79,16 @@ foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate 
   endif()
 endforeach()
 
+# How the sources are formatted, where that can be told.
+find_program(WAVETANK_CLANG_FORMAT clang-format-15)
+find_program(WAVETANK_BLACK black)
+if(WAVETANK_CLANG_FORMAT AND WAVETANK_BLACK AND EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/.git)
+  add_test(NAME style_test COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripts/style)
+  list(APPEND program_tests style_test)
+else()
+  message(STATUS "No test of the sources' formatting: clang-format-15, black or the repository is not there.")
+endif()
+
 add_test(NAME bench_wavetank_bench_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_BENCH=$<TARGET_FILE:wavetank_bench>
   ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/bench/wavetank_bench_test.py -v)
 add_test(NAME bench_wavetank_check_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_CHECK=$<TARGET_FILE:wavetank_check>
