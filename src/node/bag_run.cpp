@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
@@ -14,6 +16,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double least_time_left = 1e-9;  ///< s, below any step
+
+/// The script that shows such files in ParaView.
+std::string vtk_view() {
+  const std::string path = resolve_resource("package://wavetank/config/paraview/view.py");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error("'" + path + "' cannot be read, which --vtk copies into its folder");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
@@ -32,7 +42,9 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
   const auto whole = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
   if (!options_.save.empty() && !options_.bag.empty() && whole(options_.save) == whole(options_.bag))
     throw Error("--bag and --save are both '" + options_.save + "'; give each a file of its own");
-  if (!options_.bag.empty()) recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_, options_.clouds);
+  if (!options_.bag.empty())
+    recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_, options_.clouds, options_.particles);
+  if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkRecorder>(options_.vtk, options_.vtk_rate, case_, vtk_view());
 }
 
 BagRun::Outcome BagRun::run() {
@@ -48,8 +60,9 @@ BagRun::Outcome BagRun::run() {
     if (!simulation_) throw;  // before the start: there is no state to save
     violation_ = violation.what();
   } catch (const BagError& full) {
-    if (last_.step == first_.step) throw;  // there is nothing to keep yet
-    cut_short_ = full.what();
+    cut_short(full);
+  } catch (const VtkError& full) {
+    cut_short(full);
   }
   progress_.clear();
   finish();
@@ -60,6 +73,12 @@ BagRun::Outcome BagRun::run() {
   }
   if (!cut_short_.empty()) throw Error(cut_short_);
   return interrupted_ != 0 ? Outcome::interrupted : Outcome::done;
+}
+
+/// While it is caught.
+void BagRun::cut_short(const Error& full) {
+  if (last_.step == first_.step) throw;  // there is nothing to keep yet
+  cut_short_ = full.what();
 }
 
 void BagRun::start() {
@@ -81,6 +100,7 @@ void BagRun::start() {
   const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation_->bodies()));
   messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout(), frames);
   if (recorder_) recorder_->start(*simulation_, frames);
+  if (vtk_) vtk_->start(*simulation_);
 }
 
 void BagRun::step_to_the_end() {
@@ -104,7 +124,11 @@ void BagRun::write_samples() {
   last_ = simulation_->state();
   if (!samples.energies.empty()) energies_ = samples.energies.back();
   seconds_ = elapsed();
-  if (!recorder_) return;
+  if (recorder_) record(samples);
+  if (vtk_) vtk_->record(*simulation_, samples);
+}
+
+void BagRun::record(const Samples& samples) {
   messages_->emit(samples, clock_, [this](const std::string& topic, const ros::Time& stamp, const auto& message) {
     recorder_->write(topic, stamp, message);
   });
@@ -126,12 +150,21 @@ RunState BagRun::run_state(std::uint8_t phase) const {
 
 void BagRun::finish() {
   if (!violation_.empty()) save_violation();
+  if (vtk_) finish_vtk();
   if (recorder_ && recorder_->is_open()) finish_bag();
   if (!violation_.empty()) return;
   if (!cut_short_.empty())
     save_what_is_left();
   else if (!options_.save.empty())
     save_at_end();
+}
+
+void BagRun::finish_vtk() {
+  try {
+    vtk_->finish();
+  } catch (const VtkError& error) {
+    if (cut_short_.empty()) cut_short_ = error.what();
+  }
 }
 
 void BagRun::finish_bag() {
@@ -216,6 +249,7 @@ void BagRun::report() const {
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
   if (bag_is_whole_) std::printf("bag               %s\n", recorder_->path().c_str());
+  if (vtk_) std::printf("for ParaView      %s\n", vtk_->path().c_str());
   if (!options_.save.empty() && violation_.empty() && cut_short_.empty()) std::printf("snapshot          %s\n", options_.save.c_str());
   if (!options_.profile) return;
   std::printf("\n%-32s %10s %12s %8s\n", "kernel", "launches", "seconds", "share");

@@ -80,6 +80,7 @@ ParticleCloud surface_of(const ParticleCloud& cloud) {
     surface.velocity.push_back(cloud.velocity[i]);
     surface.pressure.push_back(cloud.pressure[i]);
     surface.density.push_back(cloud.density[i]);
+    surface.mass.push_back(cloud.mass[i]);
     surface.shepard.push_back(cloud.shepard[i]);
     surface.surface.push_back(cloud.surface[i]);
   }

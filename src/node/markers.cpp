@@ -57,7 +57,7 @@ void place_resource(Marker& result, const MeshSource& source) {
   result.pose.orientation = quaternion_message(turn);
 }
 
-/// `source`: the mesh file that the layout's mesh was read from, null for a parametric shape.
+/// `source`: the mesh file that the layout's mesh was read from, null for a parametric shape, or where triangles are wanted.
 Marker surface_marker(const Case& checked, const std::string& group, int id, const TriangleMesh& mesh, const MeshSource* source,
                       const std_msgs::ColorRGBA& shade) {
   Marker result = marker(checked, group, id, Marker::TRIANGLE_LIST, shade);
@@ -119,20 +119,21 @@ std::vector<Vector3d> feature_edges(const TriangleMesh& mesh, double angle) {
   return ends;
 }
 
-visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layout, const std::vector<BodyFrame>& frames) {
+visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layout, const std::vector<BodyFrame>& frames, bool resources) {
   const double size = (layout.domain.max - layout.domain.min).norm();
+  const auto source_of = [resources](const auto& shape) { return resources ? std::get_if<MeshSource>(&shape) : nullptr; };
   visualization_msgs::MarkerArray drawing;
   Marker erase = marker(checked, "", 0, Marker::CUBE, colour(0, 0, 0, 0));
   erase.action = Marker::DELETEALL;
   drawing.markers.push_back(erase);
 
   drawing.markers.push_back(
-      surface_marker(checked, "tank", 0, layout.meshes[0], std::get_if<MeshSource>(&checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
+      surface_marker(checked, "tank", 0, layout.meshes[0], source_of(checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
   drawing.markers.push_back(edge_marker(checked, "tank edges", 0, layout.meshes[0], 0.0015 * size, colour(0.75F, 0.8F, 0.85F, 0.9F)));
   for (std::size_t i = 0; i < checked.bodies.size(); ++i) {
     const int id = static_cast<int>(i);
     const TriangleMesh& mesh = layout.meshes[i + 1];
-    const auto* source = std::get_if<MeshSource>(&checked.bodies[i].shape);
+    const auto* source = source_of(checked.bodies[i].shape);
     drawing.markers.push_back(
         moving_with(frames[i + 1], surface_marker(checked, "bodies", id, mesh, source, colour(0.95F, 0.6F, 0.15F, 1.0F))));
     drawing.markers.push_back(

@@ -347,6 +347,7 @@ ParticleCloud cloud_of(const FluidState& fluid, const FluidSurface& surface, dou
     cloud.velocity.push_back(fluid.velocity[i].cast<float>());
     cloud.pressure.push_back(static_cast<float>(fluid.pressure[i]));
     cloud.density.push_back(static_cast<float>(density * (1.0 + fluid.compression[i])));
+    cloud.mass.push_back(static_cast<float>(fluid.mass[i]));
     cloud.shepard.push_back(static_cast<float>(surface.shepard[i]));
     cloud.surface.push_back(surface.on_surface[i]);
   }

@@ -5,8 +5,6 @@ import csv
 import glob
 import math
 import os
-import py_compile
-import re
 import resource
 import shutil
 import struct
@@ -14,7 +12,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import xml.dom.minidom
 
 import numpy
 import rosbag
@@ -22,9 +19,8 @@ import rospy
 import wavetank
 from geometry_msgs.msg import Point, Vector3, Vector3Stamped, WrenchStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu, JointState, PointCloud2, PointField
+from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import String
-from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import MooringTension, OpeningFlow, ProbeArray, SectionFlow, SolverStatus, WaveGaugeArray
 from wavetank.bag_file import BagFile
 from wavetank.recording import Recording
@@ -48,18 +44,6 @@ except ImportError:
 
 def same_bits(a, b):
     return numpy.asarray(a, dtype=float).tobytes() == numpy.asarray(b, dtype=float).tobytes()
-
-
-def read_vtp(path):
-    """Arrays of a file of polygons by name, and how many cells there are of each kind, by the format's own description."""
-    with open(path, "rb") as file:
-        head, _, raw = file.read().partition(b'<AppendedData encoding="raw">\n_')
-    arrays = {}
-    for kind, name, width, offset in re.findall(rb'<DataArray type="(\w+)" Name="(\w+)" NumberOfComponents="(\d)" format="appended" offset="(\d+)"/>', head):
-        (length,) = struct.unpack_from("<Q", raw, int(offset))
-        values = numpy.frombuffer(raw, {b"Float32": "<f4", b"Int64": "<i8"}[kind], offset=int(offset) + 8, count=length // (4 if kind == b"Float32" else 8))
-        arrays[name.decode()] = values.reshape(-1, int(width)) if width != b"1" else values
-    return arrays, {kind.decode(): int(count) for kind, count in re.findall(rb'NumberOf(\w+)="(\d+)"', head)}
 
 
 def stamped(message, milliseconds):
@@ -272,52 +256,9 @@ class Export(BagTest):
         self.assertLess(after.ru_utime - before.ru_utime, 2.5)
         self.assertLess(after.ru_maxrss, 300 * 1024)
 
-    def test_vtk_has_points_fields_and_bodies_where_they_are(self):
-        source, out = self.path("cloud.bag"), self.path("vtk")
-        points = numpy.array([[1, 2, 3, 4, 5, 6, 7], [8, 9, 10, 11, 12, 13, 14]], dtype="<f4")
-        cloud = PointCloud2(
-            height=1, point_step=28, fields=[PointField(name, 4 * n, PointField.FLOAT32, 1) for n, name in enumerate("x y z vx vy vz pressure".split())]
-        )
-        triangle = [Point(0, 0, 0), Point(1, 0, 0), Point(0, 0, 1)]
-        markers = [Marker(ns="tank", type=Marker.TRIANGLE_LIST, points=triangle), Marker(ns="bodies", id=0, type=Marker.TRIANGLE_LIST, points=triangle)]
-        markers[1].header.frame_id = "tank/bodies/hull"
-        for marker in markers:
-            marker.pose.orientation.w = 1.0
-        markers[1].pose.position.x = -0.5  # from the body's frame to its mesh
-        with rosbag.Bag(source, "w") as bag:
-            bag.write("/wavetank/case", String("# made here\ntitle: t\nbodies: [{name: hull}]"), rospy.Time(0, 1))
-            bag.write("/wavetank/markers", MarkerArray(markers), rospy.Time(0, 1))
-            for n in range(3):
-                odometry = stamped(Odometry(), 100 * n)
-                odometry.pose.pose.position.z = float(n)
-                odometry.pose.pose.orientation.y, odometry.pose.pose.orientation.w = math.sin(math.pi / 4), math.cos(math.pi / 4)
-                bag.write("/wavetank/bodies/hull/odom", odometry, rospy.Time(1 + n))
-            for n in range(2):
-                cloud.width, cloud.data = n + 1, points[: n + 1].tobytes()
-                bag.write("/wavetank/free_surface", stamped(cloud, 50 + 100 * n), rospy.Time(1 + n))
-        done = self.run_export(source, "--vtk", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        arrays, counts = read_vtp(os.path.join(out, "free_surface_00001.vtp"))
-        self.assertEqual((counts["Points"], counts["Verts"], counts["Polys"]), (2, 2, 0))
-        self.assertEqual(arrays["points"].tolist(), points[:, :3].tolist())
-        self.assertEqual(arrays["velocity"].tolist(), points[:, 3:6].tolist())
-        self.assertEqual(arrays["pressure"].tolist(), [7.0, 14.0])
-        self.assertEqual(arrays["connectivity"].tolist(), [0, 1])
-        self.assertEqual(arrays["offsets"].tolist(), [1, 2])
-        arrays, counts = read_vtp(os.path.join(out, "hull_00001.vtp"))
-        self.assertEqual((counts["Points"], counts["Polys"]), (3, 1))
-        # at 0.15 s 1.5 m up; turned by a quarter about y, which takes x to -z and z to x
-        numpy.testing.assert_allclose(arrays["points"], [[0, 0, 2.0], [0, 0, 1.0], [1, 0, 2.0]], atol=1e-6)
-        arrays, _ = read_vtp(os.path.join(out, "tank.vtp"))
-        self.assertEqual(arrays["points"].tolist(), [[0, 0, 0], [1, 0, 0], [0, 0, 1]])
-        entries = xml.dom.minidom.parse(os.path.join(out, "case.pvd")).getElementsByTagName("DataSet")
-        found = [(entry.getAttribute("timestep"), entry.getAttribute("file")) for entry in entries]
-        self.assertEqual(found[3:], [("0.15", "free_surface_00001.vtp"), ("0.15", "hull_00001.vtp"), ("0.15", "tank.vtp")])
-        py_compile.compile(os.path.join(out, "view.py"), os.path.join(out, "view.pyc"), doraise=True)
-
     def test_what_is_wrong_is_one_sentence(self):
         for arguments, sentence in (
-            ([self.bag, "--vtk", "x"], "holds no point clouds: write it with wavetank_run --clouds"),
+            ([self.bag, "--vtk", "x"], "holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds"),
             (["/no/such.bag", "--csv", "x"], "export: there is no bag '/no/such.bag'"),
             ([self.bag, "--csv", self.bag], "export: cannot write '%s': File exists" % self.bag),
             ([self.bag, "--csv", "x", "--instrument", "thermometer"], "holds no thermometer under /wavetank, only probes, gauges"),

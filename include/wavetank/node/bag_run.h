@@ -9,11 +9,12 @@
 #include "wavetank/node/progress.h"
 #include "wavetank/node/run_options.h"
 #include "wavetank/node/run_recorder.h"
+#include "wavetank/node/vtk_recorder.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
 
-/// One simulation from its start to its end with everything written to a bag: what wavetank_run does.
+/// One simulation from its start to its end with everything written to a bag, and to files for ParaView: what wavetank_run does.
 class BagRun {
  public:
   enum class Outcome { done, interrupted, violated };
@@ -23,7 +24,8 @@ class BagRun {
   BagRun(const RunOptions& options, const std::atomic<int>& interrupted);
 
   /// Starts and runs the simulation, ends the bag and reports on standard output. Throws Error for whatever stops it but a violation; where
-  /// the disk does not take the bag or the snapshot any more, after all that could be was kept, and what() says where.
+  /// the disk does not take the bag, the files for ParaView or the snapshot any more, after all that could be was kept, and what() says
+  /// where.
   Outcome run();
 
  private:
@@ -31,8 +33,11 @@ class BagRun {
   void start();
   void step_to_the_end();
   void write_samples();
+  void record(const Samples& samples);
   void finish();
+  void finish_vtk();
   void finish_bag();
+  void cut_short(const Error& full);
   RunState run_state(std::uint8_t phase) const;
   std::string failure_snapshot() const;
   void save_violation();
@@ -48,6 +53,7 @@ class BagRun {
   Case case_;
   StampClock clock_;
   std::unique_ptr<RunRecorder> recorder_;
+  std::unique_ptr<VtkRecorder> vtk_;
   Progress progress_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<SampleMessages> messages_;
@@ -57,7 +63,7 @@ class BagRun {
   Clock::time_point began_;
   double seconds_ = 0;  ///< of wall time, stepping
   std::string violation_;
-  std::string cut_short_;     ///< why bag or snapshot are not as they were asked for, and where they are; empty = they are
+  std::string cut_short_;     ///< why bag, files or snapshot are not as they were asked for, and where they are; empty = they are
   std::string save_problem_;  ///< why the snapshot is not where it was wanted
   bool bag_is_whole_ = false;
 };

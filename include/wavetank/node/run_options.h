@@ -15,9 +15,12 @@ struct RunOptions {
   std::string case_file;
   std::vector<Override> overrides;  ///< of --set, --duration and --device, in this order
   std::string bag;                  ///< empty = none
-  bool clouds = false;
-  std::string restore;  ///< empty = start at time 0
-  std::string save;     ///< empty = no snapshot at the end
+  bool clouds = false;              ///< the free surface's particles into the bag
+  bool particles = false;           ///< all particles into the bag
+  std::string vtk;                  ///< a folder for files for ParaView; empty = none
+  double vtk_rate = 20;             ///< Hz of simulated time, of those files
+  std::string restore;              ///< empty = start at time 0
+  std::string save;                 ///< empty = no snapshot at the end
   bool profile = false;
   bool quiet = false;
 };

@@ -27,6 +27,7 @@ struct ParticleCloud {
   std::vector<Eigen::Vector3f> velocity;  ///< m/s
   std::vector<float> pressure;            ///< Pa, gauge
   std::vector<float> density;             ///< kg/m³
+  std::vector<float> mass;                ///< kg (2-D: kg/m)
   std::vector<float> shepard;             ///< γ, 0…1
   std::vector<std::uint8_t> surface;      ///< 1 on the free surface
 };

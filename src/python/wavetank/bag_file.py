@@ -49,6 +49,7 @@ class BagFile:
             raise Failure("'%s' is no bag: it does not begin with '#ROSBAG V2.0'" % path)
         self.connections = {}
         self._chunks = None
+        self._last_chunk = (None, None)
         try:
             self._read_index()
         except (IndexError, KeyError, ValueError, struct.error):
@@ -104,19 +105,54 @@ class BagFile:
         """Of each connection in `wanted` (a set of ids) its messages as a list of arrays of bytes, a row a message: those of one chunk and length."""
         found = {number: [] for number in wanted}
         try:
-            if self._chunks is None:
-                self._chunks = list(self._scan())
-            for header, begin, end, indices in self._chunks:
+            for header, begin, end, indices in self._all_chunks():
                 if not found.keys() & indices.keys():
                     continue
                 chunk = self._chunk(header, begin, end)
                 for number in found.keys() & indices.keys():
-                    for first, last in indices[number]:
-                        entries = numpy.frombuffer(self._data[first:last].tobytes(), dtype=[("time", "<u8"), ("offset", "<u4")])
-                        found[number].extend(cut(chunk, entries["offset"].astype(numpy.int64)))
+                    for offsets in self._offsets(indices[number]):
+                        found[number].extend(cut(chunk, offsets))
         except (IndexError, KeyError, ValueError, struct.error):
             raise self._unreadable()
         return found
+
+    def places(self, number):
+        """Where the messages of a connection are, for message(): those that are large are read one at a time."""
+        try:
+            return [
+                (n, int(offset))
+                for n, (_, _, _, indices) in enumerate(self._all_chunks())
+                for offsets in self._offsets(indices.get(number, []))
+                for offset in offsets
+            ]
+        except (IndexError, KeyError, ValueError, struct.error):
+            raise self._unreadable()
+
+    def message(self, place, length=None):
+        """The bytes of the message at a place, or the first of them."""
+        number, offset = place
+        try:
+            if self._last_chunk[0] != number:
+                self._last_chunk = (number, self._chunk(*self._all_chunks()[number][:3]))
+            chunk = self._last_chunk[1]
+            (header,) = struct.unpack_from("<I", chunk, offset)
+            (whole,) = struct.unpack_from("<I", chunk, offset + 4 + header)
+            begin = offset + 8 + header
+            if begin + whole > len(chunk):
+                raise IndexError
+            return chunk[begin : begin + (whole if length is None else min(whole, length))].tobytes()
+        except (IndexError, KeyError, ValueError, struct.error):
+            raise self._unreadable()
+
+    def _all_chunks(self):
+        if self._chunks is None:
+            self._chunks = list(self._scan())
+        return self._chunks
+
+    def _offsets(self, places):
+        for first, last in places:
+            entries = numpy.frombuffer(self._data[first:last].tobytes(), dtype=[("time", "<u8"), ("offset", "<u4")])
+            yield entries["offset"].astype(numpy.int64)
 
     def _scan(self):
         """Of each chunk its header, where its data begin and end, and by connection where the records of its index do."""

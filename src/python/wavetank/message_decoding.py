@@ -101,7 +101,7 @@ def columns(rows, place, kind, count):
 
 
 def read_tree(types, kind, data):
-    """One message as nested dictionaries and lists."""
+    """One message as nested dictionaries and lists; lists of numbers, or of types of nothing but numbers such as points, as arrays."""
     return Tree(types, data).read(kind)
 
 
@@ -125,9 +125,17 @@ class Tree:
             return self._one(member)
         if count == -1:
             count = int(self._take("<u4")[0])
-        if member in NUMBERS:
-            return self._take(NUMBERS[member], count)
+        plain = self._plain(member)
+        if plain is not None:
+            return self._take(plain, count)
         return [self._one(member) for _ in range(count)]
+
+    def _plain(self, member):
+        """The type as numpy has it, where it is of nothing but numbers, one after the other."""
+        if member in NUMBERS:
+            return numpy.dtype(NUMBERS[member])
+        parts = [(name, self._plain(each) if count is None else None) for name, each, count in self._types.get(member, [])]
+        return numpy.dtype(parts) if parts and all(part is not None for _, part in parts) else None
 
     def _one(self, member):
         if member in NUMBERS:

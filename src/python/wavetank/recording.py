@@ -1,5 +1,7 @@
 """The samples of a tank in a bag, instrument by instrument."""
 
+import struct
+
 import numpy
 
 from wavetank import Failure
@@ -156,7 +158,11 @@ class Recording:
         return [number for number, connection in self._bag.connections.items() if connection.topic == topic and connection.kind == kind]
 
     def has_cloud(self, name):
-        return bool(self._connections(name, "sensor_msgs/PointCloud2"))
+        return bool(self._connections(name, CLOUD))
+
+    def stream(self, name, kind):
+        """The messages of that name and type, whose first member is a header, one at a time."""
+        return Stream(self._bag, self._connections(name, kind), kind)
 
     def first(self, name, kind):
         """The first message of that name and type under the namespace, as nested dictionaries and lists; None if there is none."""
@@ -173,14 +179,8 @@ class Recording:
 
     def clouds(self, name):
         """The point clouds of that name, such as "free_surface", in the order of their stamps: (ns, arrays by field)."""
-        kind = "sensor_msgs/PointCloud2"
-        found = []
-        for number in self._connections(name, kind):
-            types = read_definition(kind, self._bag.connections[number].definition)
-            for rows in joined(self._bag.messages({number})[number]):
-                for values, texts, which in decode(types, kind, rows):
-                    found.extend(zip(stamp_of(values).tolist(), clouds_of(values, texts)))
-        return sorted(found, key=lambda cloud: cloud[0])
+        stream = self.stream(name, CLOUD)
+        return ((int(stamp), cloud_of(stream.read(n))) for n, stamp in enumerate(stream.stamps))
 
     def table(self, name):
         """The samples of an instrument, in the order of their stamps."""
@@ -219,19 +219,44 @@ def joined(blocks):
     return [numpy.concatenate(same) for same in by_length.values()]
 
 
+class Stream:
+    """Messages that are too large to be read all at once. stamps: ns of simulated time, in order."""
+
+    def __init__(self, bag, connections, kind):
+        self._bag, self._kind = bag, kind
+        found = []
+        for number in connections:
+            types = read_definition(kind, bag.connections[number].definition)
+            for place in bag.places(number):
+                seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, 12), 4)  # after the header's count
+                found.append((seconds * 1000000000 + nanoseconds, place, types))
+        found.sort(key=lambda each: each[0])
+        self.stamps = numpy.array([each[0] for each in found], numpy.int64)
+        self._found = found
+
+    def __len__(self):
+        return len(self._found)
+
+    def read(self, n):
+        """The n-th as read_tree has it."""
+        _, place, types = self._found[n]
+        return read_tree(types, self._kind, self._bag.message(place))
+
+
+CLOUD = "sensor_msgs/PointCloud2"
 POINT_FIELDS = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
 
 
-def clouds_of(values, texts):
-    """The points of clouds of one length, by field."""
+def cloud_of(message):
+    """The points of a cloud, by field."""
+    fields = message["fields"]
     kind = numpy.dtype(
         {
-            "names": texts.get("fields.name", []),
-            "formats": [POINT_FIELDS[int(datatype)] for datatype in values["fields.datatype"][0]] if "fields.datatype" in values else [],
-            "offsets": [int(offset) for offset in values["fields.offset"][0]] if "fields.offset" in values else [],
-            "itemsize": int(values["point_step"][0, 0]),
+            "names": [field["name"] for field in fields],
+            "formats": [POINT_FIELDS[int(field["datatype"])] for field in fields],
+            "offsets": [int(field["offset"]) for field in fields],
+            "itemsize": int(message["point_step"]),
         }
     )
-    for row in values["data"]:
-        points = numpy.ascontiguousarray(row).view(kind)
-        yield {field: points[field] for field in kind.names}
+    points = message["data"].view(kind)
+    return {field: points[field] for field in kind.names}

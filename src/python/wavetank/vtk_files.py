@@ -1,161 +1,246 @@
-"""Writes the clouds, the tank and the bodies of a bag as files that ParaView reads: VTK's XML format of polygons, its numbers appended in binary."""
+"""Writes a bag's water, tank, bodies and instruments as files that ParaView reads: VTK's XML format of polygons, its numbers appended in binary.
+
+wavetank_run --vtk writes the same (src/node/vtk_recorder.cpp); docs/pictures.md says what there is."""
 
 import os
+import shutil
+import zlib
+from xml.sax.saxutils import escape
 
 import numpy
-import yaml
 
 from wavetank import Failure
+from wavetank.scenery import TANK, Scenery, Surface, package_path
 
-CLOUDS = ("particles", "free_surface")
-MARKERS = "visualization_msgs/MarkerArray"
-ADD, TRIANGLES, LINES = 0, 11, 5  # of visualization_msgs/Marker
-COLLECTION = "case.pvd"
-VIEW = '''"""For ParaView: pvpython view.py, or File, Load State: the water coloured by its speed, the tank and the bodies."""
-
-import os
-
-from paraview.simple import ColorBy, GetActiveViewOrCreate, GetAnimationScene, Interact, PVDReader, Render, ResetCamera, Show
-
-reader = PVDReader(FileName=os.path.join(os.path.dirname(os.path.abspath(__file__)), "case.pvd"))
-view = GetActiveViewOrCreate("RenderView")
-display = Show(reader, view)
-display.PointSize = 4.0
-ColorBy(display, ("POINTS", "velocity", "Magnitude"))
-display.RescaleTransferFunctionToDataRange(False, True)
-GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
-ResetCamera(view)
-Render(view)
-if __name__ == "__main__":
-    Interact(view)
-'''
+COLLECTION, VIEW, DATA = "case.pvd", "view.py", "data"
+SCRIPT = "package://wavetank/config/paraview/view.py"
+RENAMED = {"shepard": "gamma"}
+PACKED = ("mass", "id", "gamma", "surface")  # few different values, or such that differ little; other numbers pack badly, and cost time
+CELLS = {"Verts": 1, "Lines": 2, "Polys": 3}
 
 
 class PolyData:
-    """points: rows x y z (m). fields: arrays by name, a row or a value a point. cells: of "Verts", "Lines" or "Polys", each point in one, `size` points each."""
+    """points: rows x y z (m). fields: arrays by name, a row or a value a point, or lists of texts. kind: of "Verts", "Lines" or "Polys", each point in one."""
 
-    def __init__(self, points, fields, cells, size):
-        self.points, self.fields, self.cells, self.size = numpy.ascontiguousarray(points, dtype="<f4"), fields, cells, size
+    def __init__(self, points, fields, kind):
+        self.points, self.fields, self.kind = numpy.ascontiguousarray(points), fields, kind
 
     def write(self, path):
         """Replaces the file when it is whole."""
-        count = len(self.points) // self.size
-        blocks = []
+        blocks, length = [], 0
 
-        def array(name, values):
-            blocks.append(numpy.ascontiguousarray(values))
-            offset = sum(8 + block.nbytes for block in blocks[:-1])
-            kind = {"f": "Float%d", "i": "Int%d", "u": "UInt%d"}[blocks[-1].dtype.kind] % (8 * blocks[-1].dtype.itemsize)
-            width = blocks[-1].shape[1] if blocks[-1].ndim > 1 else 1
-            return '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="appended" offset="%d"/>' % (kind, name, width, offset)
+        def array(name, values, packed):
+            nonlocal length
+            if isinstance(values, list):
+                kind, width, data = "String", 1, b"".join(text.encode("utf-8") + b"\0" for text in values)
+                more = ' NumberOfTuples="%d"' % len(values)
+            else:
+                values = numpy.ascontiguousarray(values)
+                kind = {"f": "Float%d", "i": "Int%d", "u": "UInt%d"}[values.dtype.kind] % (8 * values.dtype.itemsize)
+                width, data, more = values.shape[1] if values.ndim > 1 else 1, values.tobytes(), ""
+            place = length
+            if data:
+                block = zlib.compress(data, 1 if packed else 0)
+                head = [1, len(data), 0, len(block)]  # how many blocks, their length, that of a shorter last one, packed lengths
+            else:
+                block, head = b"", [0]
+            blocks.extend([numpy.array(head, dtype="<u8").tobytes(), block])
+            length += 8 * len(head) + len(block)
+            return '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="appended" offset="%d"%s/>' % (
+                kind,
+                escape(name, {'"': "&quot;"}),
+                width,
+                place,
+                more,
+            )
 
-        parts = ["<PointData>"] + [array(name, values) for name, values in self.fields.items()] + ["</PointData>"]
-        parts += ["<Points>", array("points", self.points), "</Points>"]
-        cells = [array("connectivity", numpy.arange(count * self.size, dtype="<i8")), array("offsets", self.size * numpy.arange(1, count + 1, dtype="<i8"))]
-        parts += ["<%s>" % self.cells] + cells + ["</%s>" % self.cells]
-        numbers = " ".join('NumberOf%s="%d"' % (kind, count if kind == self.cells else 0) for kind in ("Verts", "Lines", "Strips", "Polys"))
+        count, size = len(self.points), CELLS[self.kind]
+        # one cell of all points costs less than one of each, and is drawn alike
+        offsets = numpy.array([count] if count else [], "<i4") if size == 1 else size * numpy.arange(1, count // size + 1, dtype="<i4")
+        parts = ["<PointData>"] + [array(name, values, name in PACKED) for name, values in self.fields.items()] + ["</PointData>"]
+        parts += ["<Points>", array("points", self.points, False), "</Points>", "<%s>" % self.kind]
+        parts += [array("connectivity", numpy.arange(count, dtype="<i4"), True), array("offsets", offsets, True), "</%s>" % self.kind]
+        numbers = " ".join('NumberOf%s="%d"' % (kind, len(offsets) if kind == self.kind else 0) for kind in ("Verts", "Lines", "Strips", "Polys"))
         head = (
-            '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-            '<Piece NumberOfPoints="%d" %s>\n%s\n</Piece>\n</PolyData>\n<AppendedData encoding="raw">\n_' % (len(self.points), numbers, "\n".join(parts))
+            '<?xml version="1.0"?>\n'
+            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">\n<PolyData>\n'
+            '<Piece NumberOfPoints="%d" %s>\n%s\n</Piece>\n</PolyData>\n<AppendedData encoding="raw">\n_' % (count, numbers, "\n".join(parts))
         )
+        write_whole(path, [head.encode("ascii")] + blocks + [b"\n</AppendedData>\n</VTKFile>\n"])
+
+
+def write_whole(path, parts):
+    try:
         with open(path + ".part", "wb") as file:
-            file.write(head.encode("ascii"))
-            for block in blocks:
-                file.write(numpy.array(block.nbytes, dtype="<u8").tobytes())
-                file.write(block.tobytes())
-            file.write(b"\n</AppendedData>\n</VTKFile>\n")
+            file.writelines(parts)
         os.replace(path + ".part", path)
+    except OSError:
+        if os.path.exists(path + ".part"):
+            os.remove(path + ".part")
+        raise
+
+
+class Collection:
+    """Files of a run by their times."""
+
+    def __init__(self):
+        self._entries = []
+
+    def add(self, time, part, name, file):
+        self._entries.append('<DataSet timestep="%.9g" part="%d" name="%s" file="%s"/>' % (time, part, name, file))
+
+    def write(self, path):
+        text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n%s\n</Collection>\n</VTKFile>\n' % "\n".join(self._entries)
+        write_whole(path, [text.encode("ascii")])
+
+
+class Folder:
+    """Where the files of a run are put: case.pvd over all, and data/ with a collection for each thing that is drawn."""
+
+    def __init__(self, path):
+        self.path = path
+        what = "cannot write files for ParaView into '%s': " % path
+        if os.path.isdir(path):
+            if os.listdir(path):
+                raise Failure(what + "it is not empty; give a new folder, or empty it")
+        elif os.path.exists(path):
+            raise Failure(what + "it is no folder")
+        try:
+            os.makedirs(os.path.join(path, DATA))
+        except OSError as error:
+            raise Failure(what + (error.strerror or str(error)))
+        self._all, self._parts, self._still = Collection(), {}, set()
+        self._time, self._count, self._part = 0.0, -1, 0
+
+    def begin(self, time):
+        """The frame of a time, s."""
+        self._time, self._part, self._count = time, 0, self._count + 1
+
+    def write(self, name, data):
+        """Of this time alone."""
+        self._list(name, "%s_%05d.vtp" % (name, self._count), data)
+
+    def write_still(self, name, data):
+        """The same at all times."""
+        self._list(name, name + ".vtp", None if name in self._still else data)
+        self._still.add(name)
+
+    def _list(self, name, file, data):
+        if data is not None:
+            data.write(os.path.join(self.path, DATA, file))
+        self._parts.setdefault(name, Collection()).add(self._time, 0, name, file)
+        self._all.add(self._time, self._part, name, DATA + "/" + file)
+        self._part += 1
+
+    def end(self):
+        for name, collection in self._parts.items():
+            collection.write(os.path.join(self.path, DATA, name + ".pvd"))
+        self._all.write(os.path.join(self.path, COLLECTION))
 
 
 def cloud_data(cloud):
-    fields = {name: values for name, values in cloud.items() if name not in ("x", "y", "z", "vx", "vy", "vz")}
+    fields = {}
     if {"vx", "vy", "vz"} <= set(cloud):
         fields["velocity"] = numpy.column_stack([cloud["vx"], cloud["vy"], cloud["vz"]])
-    return PolyData(numpy.column_stack([cloud["x"], cloud["y"], cloud["z"]]), fields, "Verts", 1)
+    for name, values in cloud.items():
+        if name not in ("x", "y", "z", "vx", "vy", "vz"):
+            fields[RENAMED.get(name, name)] = values.astype("u1") if name == "surface" else values
+    return PolyData(numpy.column_stack([cloud["x"], cloud["y"], cloud["z"]]), fields, "Verts")
 
 
-def turned(quaternion, vectors):
-    """Rows of vectors turned by x y z w."""
-    axis, real = quaternion[:3], quaternion[3]
-    first = 2.0 * numpy.cross(axis, vectors)
-    return vectors + real * first + numpy.cross(axis, first)
+class Readings:
+    """What an instrument with many points told last, as points with values."""
+
+    def __init__(self, name, value, table, place):
+        self.name, self._value, self._table, self._place = name, value, table, place
+
+    def at(self, stamp):
+        row = int(numpy.searchsorted(self._table.stamps, stamp, side="right")) - 1
+        values = {column: float(samples[max(row, 0)]) for column, samples in self._table.columns.items()}
+        points = numpy.array([self._place(column, value, stamp) for column, value in values.items()], dtype=float).reshape(-1, 3)
+        return PolyData(points, {self._value: numpy.array(list(values.values())), "name": list(values)}, "Verts")
 
 
-def vector(message):
-    return numpy.array([message[axis] for axis in "xyz"])
+def readings_of(recording, scenery):
+    found = []
+    if "probes" in recording.names:
+        table = recording.table("probes")
+        bodies = {probe["name"]: probe.get("body") for probe in (scenery.case.get("instruments") or {}).get("pressure_probes") or []}
+        starts = {name: pose.at(0) for name, pose in scenery.poses.items()}
+
+        def place_of_probe(name, value, stamp):
+            place, body = numpy.array(table.positions[name]), bodies.get(name)
+            if body not in scenery.poses:
+                return place
+            origin, _ = starts[body]  # where the body's axes are the case's
+            return scenery.poses[body].place((place - origin)[None, :], stamp)[0]
+
+        found.append(Readings("probes", "pressure", table, place_of_probe))
+    if "gauges" in recording.names:
+        levels = recording.table("gauges")
+        axis = up_axis(scenery)
+
+        def place_on_surface(name, value, stamp):
+            place = numpy.array(levels.positions[name])
+            place[axis] = value
+            return place
+
+        found.append(Readings("gauges", "level", levels, place_on_surface))
+    return [each for each in found if len(each._table)]
 
 
-def shapes_of(recording):
-    """Of the tank and the bodies as the markers draw them, by group and number: (frame, points, (cells, size)). What the markers only name, a mesh in a
-    package, has its edges."""
-    message = recording.first("markers", MARKERS)
-    shapes = {}
-    for marker in message["markers"] if message else []:
-        if marker["action"] != ADD or not marker["points"] or marker["ns"] not in ("tank", "tank edges", "bodies", "body edges"):
-            continue
-        points = numpy.array([vector(point) for point in marker["points"]])
-        pose = marker["pose"]
-        points = turned(numpy.array([pose["orientation"][axis] for axis in "xyzw"]), points) + vector(pose["position"])
-        owner = (marker["ns"].split()[0].replace("body", "bodies"), marker["id"])
-        cells = {TRIANGLES: ("Polys", 3), LINES: ("Lines", 2)}.get(marker["type"])
-        if cells and (owner not in shapes or cells[0] == "Polys"):
-            shapes[owner] = (marker["header"]["frame_id"], points, cells)
-    return shapes
+def up_axis(scenery):
+    """Along which levels are told: the axis nearest to gravity's, or z."""
+    gravity = scenery.case.get("gravity")
+    if not isinstance(gravity, list) or not any(gravity):
+        return 2
+    gravity = [gravity[0], 0.0, gravity[1]] if len(gravity) == 2 else gravity
+    return int(numpy.argmax(numpy.abs(numpy.array(gravity, dtype=float))))
 
 
-def names_of_bodies(recording):
-    """In the case's order, as far as the bag has its case."""
-    case = yaml.safe_load(recording.text("case") or "")
-    return [body["name"] for body in case.get("bodies") or []] if isinstance(case, dict) else []
+def write_vtk(recording, path):
+    """Writes all of a bag that can be seen, at the times that it has of the water, and returns the file to open."""
+    scenery = Scenery(recording)
+    water = [each for each in waters_of(recording, scenery)]
+    folder = Folder(path)
+    script = package_path(SCRIPT)
+    if script is None or not os.path.isfile(script):
+        raise Failure("the package wavetank is not to be found, whose view for ParaView goes beside the files: source setup.bash")
+    shutil.copyfile(script, os.path.join(path, VIEW))
+    readings = readings_of(recording, scenery)
+    for stamp in sorted(set().union(*(each.stamps.tolist() for each in water))):
+        folder.begin(stamp / 1e9)
+        for each in water:
+            write_water(folder, each, stamp)
+        for shape in scenery.shapes():
+            name = shape.name if shape.name == TANK else "body_" + shape.name
+            if shape.pose is None:
+                folder.write_still(name, PolyData(shape.points, {}, shape.kind))
+            else:
+                folder.write(name, PolyData(shape.at(stamp), {}, shape.kind))
+        for each in readings:
+            folder.write(each.name, each.at(stamp))
+        folder.end()
+    return os.path.join(path, COLLECTION)
 
 
-class Pose:
-    """Where a body that moves is at a time."""
-
-    def __init__(self, table):
-        self._times = table.stamps
-        self._positions = table.array("position_x", "position_y", "position_z")
-        self._turns = table.array("orientation_x", "orientation_y", "orientation_z", "orientation_w")
-
-    def place(self, points, stamp):
-        """Between two samples in even parts; samples are so near to each other that turns need no better."""
-        after = int(numpy.clip(numpy.searchsorted(self._times, stamp), 1, max(len(self._times) - 1, 1)))
-        before = after - 1
-        after = min(after, len(self._times) - 1)
-        gap = self._times[after] - self._times[before]
-        share = min(max((stamp - self._times[before]) / gap, 0.0), 1.0) if gap else 0.0
-        position = self._positions[before] + share * (self._positions[after] - self._positions[before])
-        first, second = self._turns[before], self._turns[after]
-        turn = first + share * ((second if first @ second >= 0 else -second) - first)
-        return turned(turn / numpy.linalg.norm(turn), points) + position
+def waters_of(recording, scenery):
+    surface = Surface(recording)
+    if len(surface.stamps):
+        yield surface
+    try:
+        yield scenery.particles()
+    except Failure:
+        if not len(surface.stamps):
+            raise
 
 
-def write_vtk(recording, folder):
-    """Writes a file for each cloud, one for each body that moves at each cloud's time, one for each that does not, case.pvd over all and view.py."""
-    name = next((each for each in CLOUDS if recording.has_cloud(each)), None)
-    if name is None:
-        raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds" % recording.path)
-    os.makedirs(folder, exist_ok=True)
-    poses = {each.split("/")[1]: Pose(recording.table(each)) for each in recording.names if each.endswith("/odom")}
-    names = names_of_bodies(recording)
-    fixed, moving = [], []
-    for (group, number), (frame, points, (cells, size)) in shapes_of(recording).items():
-        title = "tank" if group == "tank" else names[number] if number < len(names) else "body_%d" % number
-        if "/bodies/" in frame and title in poses:  # drawn in the frame of a body that moves
-            moving.append((title, poses[title], points, cells, size))
-        else:
-            fixed.append(title + ".vtp")
-            PolyData(points, {}, cells, size).write(os.path.join(folder, fixed[-1]))
-    entries = []
-    for count, (stamp, cloud) in enumerate(recording.clouds(name)):
-        files = ["%s_%05d.vtp" % (name, count)]
-        cloud_data(cloud).write(os.path.join(folder, files[0]))
-        for title, pose, points, cells, size in moving:
-            files.append("%s_%05d.vtp" % (title, count))
-            PolyData(pose.place(points, stamp), {}, cells, size).write(os.path.join(folder, files[-1]))
-        entries += ['<DataSet timestep="%.9g" part="%d" file="%s"/>' % (stamp / 1e9, part, file) for part, file in enumerate(files + fixed)]
-    with open(os.path.join(folder, COLLECTION), "w", encoding="ascii") as file:
-        file.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n%s\n</Collection>\n</VTKFile>\n' % "\n".join(entries))
-    with open(os.path.join(folder, "view.py"), "w", encoding="ascii") as file:
-        file.write(VIEW)
-    return os.path.join(folder, COLLECTION)
+def write_water(folder, water, stamp):
+    n = int(numpy.searchsorted(water.stamps, stamp, side="right")) - 1  # of the last time that has it
+    n = max(n, 0)
+    if isinstance(water, Surface):
+        corners, spray = water.at(n)
+        folder.write("surface", PolyData(corners.astype("<f4"), {}, "Polys"))
+        folder.write("spray", PolyData(spray.astype("<f4"), {}, "Verts"))
+    else:
+        folder.write("water", cloud_data(water.cloud(n)))

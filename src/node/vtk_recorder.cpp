@@ -1,0 +1,270 @@
+#include "wavetank/node/vtk_recorder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+
+#include "wavetank/common/whole_file.h"
+#include "wavetank/node/frames.h"
+#include "wavetank/scene/upward.h"
+
+namespace wavetank {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double least_delay = 1e-9;  ///< s, below any step
+const char* const data_folder = "data";
+
+/// Leaves an empty folder that can be written to.
+void make_folder(const std::string& folder) {
+  const std::string what = "cannot write files for ParaView into '" + folder + "': ";
+  std::error_code problem;
+  if (fs::exists(folder, problem)) {
+    if (!fs::is_directory(folder, problem)) throw Error(what + "it is no folder");
+    if (access(folder.c_str(), W_OK) != 0) throw Error(what + std::strerror(errno));
+    const bool is_empty = fs::is_empty(folder, problem);
+    if (problem) throw Error(what + problem.message());
+    if (!is_empty) throw Error(what + "it is not empty; give a new folder, or empty it");
+  } else if (!fs::create_directory(folder, problem)) {
+    const fs::path parent = fs::path(folder).parent_path();
+    throw Error(what + (problem.value() == ENOENT ? "there is no folder '" + parent.string() + "'" : problem.message()));
+  }
+  if (!fs::create_directory(folder + "/" + data_folder, problem)) throw Error(what + problem.message());
+}
+
+void append_point(std::vector<double>& points, const Vector3d& point) {
+  for (int axis = 0; axis < 3; ++axis) points.push_back(point[axis]);
+}
+
+/// By the particles' ids, so that a particle keeps its place from frame to frame as long as none comes or goes, and the ids pack well.
+VtkPolygons water_of(const ParticleCloud& cloud) {
+  std::vector<std::uint32_t> order(cloud.id.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return cloud.id[a] < cloud.id[b]; });
+  const auto ordered = [&](const auto& values) {
+    auto result = values;
+    for (std::size_t i = 0; i < order.size(); ++i) result[i] = values[order[i]];
+    return result;
+  };
+  const auto vectors = [&](const std::vector<Eigen::Vector3f>& values) {
+    std::vector<float> result(3 * order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis) result[3 * i + axis] = values[order[i]][axis];
+    return result;
+  };
+  VtkPolygons water;
+  water.points = vectors(cloud.position);
+  water.fields.push_back({"velocity", 3, vectors(cloud.velocity), false});
+  water.fields.push_back({"pressure", 1, ordered(cloud.pressure), false});
+  water.fields.push_back({"density", 1, ordered(cloud.density), false});
+  water.fields.push_back({"mass", 1, ordered(cloud.mass), true});
+  water.fields.push_back({"id", 1, ordered(cloud.id), true});
+  water.fields.push_back({"gamma", 1, ordered(cloud.shepard), true});
+  water.fields.push_back({"surface", 1, ordered(cloud.surface), true});
+  return water;
+}
+
+template <class Instruments>
+std::vector<std::string> names_of(const Instruments& instruments) {
+  std::vector<std::string> names;
+  for (const auto& each : instruments) names.push_back(each.name);
+  return names;
+}
+
+}  // namespace
+
+VtkRecorder::VtkRecorder(const std::string& folder, double rate, const Case& scene, std::string view)
+    : folder_(folder), period_(1.0 / rate), scene_(scene), view_(std::move(view)) {
+  make_folder(folder_);
+}
+
+VtkRecorder::~VtkRecorder() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.reset();
+    is_over_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void VtkRecorder::start(const Simulation& simulation) {
+  const RigidWorld& bodies = simulation.bodies();
+  const std::vector<BodyFrame> frames = body_frames(scene_, reference_points(bodies));
+  references_ = reference_points(bodies);
+  for (std::size_t owner = 0; owner < bodies.count(); ++owner)
+    shapes_.push_back({owner == 0 ? "tank" : "body_" + scene_.bodies[owner - 1].name, owner, &simulation.layout().meshes[owner],
+                       owner > 0 && frames[owner].moves});
+  next_ = simulation.state().time;
+  write_file("view.py", view_);
+  thread_ = std::thread([this] { write_frames(); });
+}
+
+void VtkRecorder::record(const Simulation& simulation, const Samples& samples) {
+  if (!samples.pressures.empty()) readings_.pressures = samples.pressures.back().pressures;
+  if (!samples.levels.empty()) readings_.levels = samples.levels.back().levels;
+  if (!samples.velocities.empty()) readings_.velocities = samples.velocities.back().velocities;
+  const double time = simulation.state().time;
+  if (time < next_ - least_delay) return;
+  while (next_ <= time + least_delay) next_ += period_;
+  Frame frame;
+  frame.water = simulation.particles();
+  for (std::size_t owner = 0; owner < simulation.bodies().count(); ++owner)
+    frame.states.push_back(simulation.bodies().state_in_tank(owner));
+  frame.readings = readings_;
+  hand_over(std::move(frame));
+}
+
+void VtkRecorder::hand_over(Frame frame) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return !waiting_ || problem_; });
+  throw_problem();
+  waiting_ = std::move(frame);
+  changed_.notify_all();
+}
+
+void VtkRecorder::finish() {
+  if (!thread_.joinable()) return;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return (!waiting_ && !is_writing_) || problem_; });
+    is_over_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  throw_problem();
+}
+
+/// Once: whoever was told goes on without.
+void VtkRecorder::throw_problem() {
+  if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
+}
+
+void VtkRecorder::write_frames() {
+  while (true) {
+    Frame frame;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return waiting_ || is_over_; });
+      if (!waiting_) return;
+      frame = std::move(*waiting_);
+      waiting_.reset();
+      is_writing_ = true;
+    }
+    changed_.notify_all();
+    std::exception_ptr problem;
+    try {
+      write_frame(frame);
+    } catch (const std::exception&) {
+      problem = std::current_exception();
+    }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_writing_ = false;
+      problem_ = problem;
+    }
+    changed_.notify_all();
+    if (problem) return;
+  }
+}
+
+void VtkRecorder::write_frame(const Frame& frame) {
+  parts_ = 0;
+  write_part(frame, "water", water_of(frame.water));
+  for (const Shape& shape : shapes_) {
+    const std::string file = shape.name + ".vtp";
+    if (shape.moves) {
+      write_part(frame, shape.name, triangles_of(shape, frame));
+    } else {
+      if (frames_ == 0) write_file(std::string(data_folder) + "/" + file, vtp_content(triangles_of(shape, frame)));
+      list_part(frame.water.time, shape.name, file);
+    }
+  }
+  write_readings(frame);
+  for (const auto& [name, collection] : parts_of_) write_file(std::string(data_folder) + "/" + name + ".pvd", collection.content());
+  write_file("case.pvd", all_.content());
+  ++frames_;
+}
+
+void VtkRecorder::write_readings(const Frame& frame) {
+  const InstrumentsCase& instruments = scene_.instruments;
+  if (!frame.readings.pressures.empty()) {
+    std::vector<double> points;
+    for (const PressureProbeCase& probe : instruments.pressure_probes) append_point(points, place_of(frame, probe.position, probe.body));
+    VtkPolygons probes;
+    probes.points = points;
+    probes.fields = {{"pressure", 1, frame.readings.pressures, false}, {"name", 1, names_of(instruments.pressure_probes), false}};
+    write_part(frame, "probes", probes);
+  }
+  if (!frame.readings.velocities.empty()) {
+    std::vector<double> points, velocities;
+    for (const VelocityProbeCase& probe : instruments.velocity_probes) append_point(points, place_of(frame, probe.position, probe.body));
+    for (const Vector3d& velocity : frame.readings.velocities) append_point(velocities, velocity);
+    VtkPolygons probes;
+    probes.points = points;
+    probes.fields = {{"velocity", 3, velocities, false}, {"name", 1, names_of(instruments.velocity_probes), false}};
+    write_part(frame, "velocity_probes", probes);
+  }
+  if (!frame.readings.levels.empty()) {
+    std::vector<double> points;
+    for (std::size_t k = 0; k < instruments.wave_gauges.size(); ++k) {
+      Vector3d surface = instruments.wave_gauges[k].position;
+      surface[top_of(scene_).axis] = frame.readings.levels[k];
+      append_point(points, surface);
+    }
+    VtkPolygons gauges;
+    gauges.points = points;
+    gauges.fields = {{"level", 1, frame.readings.levels, false}, {"name", 1, names_of(instruments.wave_gauges), false}};
+    write_part(frame, "gauges", gauges);
+  }
+}
+
+/// Of a probe: with its body.
+Vector3d VtkRecorder::place_of(const Frame& frame, const Vector3d& given, const std::string& body) const {
+  const std::size_t owner = owner_of(scene_, body);
+  return owner == 0 ? given : frame.states[owner].moved(given, references_[owner]);
+}
+
+VtkPolygons VtkRecorder::triangles_of(const Shape& shape, const Frame& frame) const {
+  std::vector<double> points;
+  points.reserve(9 * shape.mesh->triangles.size());
+  for (std::size_t i = 0; i < shape.mesh->triangles.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3d given = shape.mesh->corner(i, corner);
+      append_point(points, shape.moves ? frame.states[shape.owner].moved(given, references_[shape.owner]) : given);
+    }
+  VtkPolygons polygons;
+  polygons.cells = VtkPolygons::Cells::triangles;
+  polygons.points = points;
+  return polygons;
+}
+
+void VtkRecorder::write_part(const Frame& frame, const std::string& name, const VtkPolygons& polygons) {
+  char number[16];
+  std::snprintf(number, sizeof number, "_%05d", frames_);
+  const std::string file = name + number + ".vtp";
+  write_file(std::string(data_folder) + "/" + file, vtp_content(polygons));
+  list_part(frame.water.time, name, file);
+}
+
+void VtkRecorder::list_part(double time, const std::string& name, const std::string& file) {
+  parts_of_[name].add(time, 0, name, file);
+  all_.add(time, parts_++, name, std::string(data_folder) + "/" + file);
+}
+
+void VtkRecorder::write_file(const std::string& name, const std::string& content) const {
+  try {
+    write_whole(folder_ + "/" + name, content, "the file for ParaView");
+  } catch (const Error& error) {
+    throw VtkError(error.what());
+  }
+}
+
+}  // namespace wavetank

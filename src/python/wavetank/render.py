@@ -1,0 +1,344 @@
+"""Draws the water of a bag, with tank and bodies, as a picture or a film."""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy
+
+from wavetank import Failure
+from wavetank import camera as cameras
+from wavetank.display import INSTALL, Display
+from wavetank.recording import Recording
+from wavetank.scenery import Particles, Scenery
+
+FILMS, PICTURES = (".mp4", ".gif"), (".png",)
+UNITS = {"speed": "speed (m/s)", "pressure": "pressure (Pa)"}
+
+
+def pair(text, separator, kind):
+    parts = text.split(separator)
+    if len(parts) != 2:
+        raise ValueError
+    return tuple(kind(part) for part in parts)
+
+
+def picture_size(text):
+    try:
+        size = pair(text, "x", int)
+    except ValueError:
+        raise Failure("--size '%s' is not WIDTHxHEIGHT in pixels, as 1280x720" % text)
+    if min(size) < 16 or max(size) > 8192:
+        raise Failure("--size '%s': from 16 to 8192 pixels" % text)
+    return tuple(number + number % 2 for number in size)  # films take even numbers only
+
+
+def numbers(text, count, what):
+    try:
+        values = [float(part) for part in text.split(",")]
+        if len(values) != count or not numpy.all(numpy.isfinite(values)):
+            raise ValueError
+        return numpy.array(values)
+    except ValueError:
+        raise Failure("%s '%s' is not %s" % (what, text, ",".join("XYZ"[:count]) if count == 3 else "LOW,HIGH"))
+
+
+def read_arguments(arguments):
+    parser = argparse.ArgumentParser(prog="render", description=__doc__, epilog="docs/pictures.md has examples. Drawn without a display, by VTK.")
+    parser.add_argument("bag", help="written by wavetank_run with --surface, --particles or --clouds")
+    parser.add_argument("-o", "--output", metavar="FILE", required=True, help="a film (.mp4, .gif), or a picture (.png)")
+    parser.add_argument("--at", metavar="S", type=float, help="of a picture: simulated time, s; the nearest that was recorded (the last)")
+    parser.add_argument("--from", metavar="S", type=float, dest="begin", help="of a film: simulated time that it begins at, s")
+    parser.add_argument("--to", metavar="S", type=float, dest="end", help="and ends at")
+    parser.add_argument("--fps", metavar="N", type=float, help="pictures a second of a film (25; gif: 12.5)")
+    parser.add_argument("--speed", metavar="X", type=float, default=1.0, help="simulated seconds a second of a film (1)")
+    parser.add_argument("--size", metavar="WxH", default="1280x720", help="pixels (1280x720)")
+    parser.add_argument("--view", metavar="VIEW", help="of rviz: a file, or the name of one of the package's (that of the case, or all of the tank)")
+    parser.add_argument("--eye", metavar="X,Y,Z", help="where the camera is, m")
+    parser.add_argument("--target", metavar="X,Y,Z", help="what it looks at, m (the middle of the tank)")
+    parser.add_argument("--water", choices=("surface", "particles"), help="what the water is drawn as (the surface, if the bag has it)")
+    parser.add_argument("--colour", choices=("speed", "pressure"), default="speed", help="that particles are coloured by (speed)")
+    parser.add_argument("--range", metavar="LOW,HIGH", help="of the colours, m/s or Pa")
+    parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
+    return parser.parse_args(arguments)
+
+
+def times_of(options, stamps, ending):
+    """Which of the recorded times are drawn, one after the other."""
+    first, last = stamps[0] / 1e9, stamps[-1] / 1e9
+    slack = 1e-6 + (0.5 * (last - first) / (len(stamps) - 1) if len(stamps) > 1 else 0.0)
+
+    def checked(time, flag):
+        if not first - slack <= time <= last + slack:
+            raise Failure("%s %g s is outside of what '%s' has of the water: from %g to %g s" % (flag, time, options.bag, first, last))
+        return time
+
+    def nearest(times):
+        after = numpy.clip(numpy.searchsorted(stamps, times * 1e9), 1, len(stamps) - 1) if len(stamps) > 1 else numpy.zeros(len(times), int)
+        before = numpy.maximum(after - 1, 0)
+        return numpy.where(times * 1e9 - stamps[before] <= stamps[after] - times * 1e9, before, after)
+
+    if ending in PICTURES:
+        if options.begin is not None or options.end is not None:
+            raise Failure("a picture is of one time: give it by --at, or write a film (%s)" % ", ".join(FILMS))
+        return nearest(numpy.array([last if options.at is None else checked(options.at, "--at")]))
+    if options.at is not None:
+        raise Failure("--at is of a picture (.png): a film goes from --from to --to")
+    begin = first if options.begin is None else checked(options.begin, "--from")
+    end = last if options.end is None else checked(options.end, "--to")
+    if end < begin:
+        raise Failure("--to %g s is before --from %g s" % (end, begin))
+    fps = frames_a_second(options, ending)
+    if not (options.speed > 0 and numpy.isfinite(options.speed)):
+        raise Failure("--speed must be greater than 0")
+    return nearest(numpy.arange(begin, end + 1e-9, options.speed / fps))
+
+
+def frames_a_second(options, ending):
+    fps = options.fps if options.fps is not None else 12.5 if ending == ".gif" else 25.0
+    if not 0.1 <= fps <= 100:
+        raise Failure("--fps %g: from 0.1 to 100" % fps)
+    return fps
+
+
+def ending_of(path):
+    ending = os.path.splitext(path)[1].lower()
+    if ending not in FILMS + PICTURES:
+        raise Failure("'%s': films end in %s, pictures in %s" % (path, " or ".join(FILMS), ", ".join(PICTURES)))
+    folder = os.path.dirname(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        raise Failure("cannot write '%s': there is no folder '%s'" % (path, folder))
+    if not os.access(folder, os.W_OK) or os.path.isdir(path):
+        raise Failure("cannot write '%s': %s" % (path, "it is a folder" if os.path.isdir(path) else "the folder is not writable"))
+    return ending
+
+
+def value_of(cloud, name):
+    if name == "pressure":
+        return cloud["pressure"]
+    return numpy.sqrt(cloud["vx"].astype(float) ** 2 + cloud["vy"].astype(float) ** 2 + cloud["vz"].astype(float) ** 2)
+
+
+def rounded_up(value):
+    """To a number that reads well."""
+    step = 10.0 ** numpy.floor(numpy.log10(value)) / 5
+    return float(step * numpy.ceil(value / step - 1e-9))
+
+
+class Film:
+    """Pictures one after the other into a file, by ffmpeg."""
+
+    def __init__(self, path, ending, size, fps):
+        program = shutil.which("ffmpeg")
+        if program is None:
+            raise Failure("films are written by ffmpeg, which is not there: %s (Debian: ffmpeg); pictures (.png) do without" % INSTALL)
+        self._path, self._part = path, path + ".part" + ending
+        command = [program, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
+        if ending == ".gif":
+            command += ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4"]
+        else:
+            command += ["-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+        self._process = subprocess.Popen(command + [self._part], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def add(self, picture):
+        try:
+            self._process.stdin.write(picture.tobytes())
+        except BrokenPipeError:
+            self._fail()
+
+    def _fail(self):
+        _, errors = self._process.communicate()
+        self.discard()
+        lines = errors.decode("utf-8", "replace").strip().splitlines() or ["ffmpeg ends with exit code %d" % self._process.returncode]
+        raise Failure("cannot write '%s': %s" % (self._path, lines[-1]))
+
+    def end(self):
+        try:
+            self._process.stdin.close()
+        except BrokenPipeError:
+            pass
+        self._process.stdin = None
+        if self._process.wait() != 0:
+            self._fail()
+        os.replace(self._part, self._path)
+
+    def discard(self):
+        """Of a film that does not come to its end."""
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+        if os.path.exists(self._part):
+            os.remove(self._part)
+
+
+def write_png(path, picture):
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+
+    height, width, _ = picture.shape
+    image = vtkImageData()
+    image.SetDimensions(width, height, 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(picture[::-1]).reshape(-1, 3), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetInputData(image)
+    writer.WriteToMemoryOn()
+    writer.Write()
+    with open(path + ".part", "wb") as file:
+        file.write(vtk_to_numpy(writer.GetResult()).tobytes())
+    os.replace(path + ".part", path)
+
+
+class Drawing:
+    """The stage of a bag, and how it changes with time."""
+
+    def __init__(self, scenery, water, options, size):
+        from wavetank import picture
+
+        self._picture, self._scenery, self._water, self._options = picture, scenery, water, options
+        self._dimensions = int(scenery.number("dimensions") or 3)
+        self._spacing = scenery.number("fluid", "spacing")
+        low, high = self._bounds()
+        self._camera = self._find_camera(low, high, size)
+        self.stage = picture.Stage(size, self._camera)
+        self._actors = []  # (actor, pose or None)
+        self._add_shapes(low, high)
+        self._add_water(high - low)
+        self._clock = self.stage.add_text((0.02, 0.02), max(12, size[1] // 26))
+
+    def _bounds(self):
+        points = [shape.points for shape in self._scenery.shapes() if shape.pose is None]
+        if not points:
+            points = [self._points_of_water(0)]
+        points = numpy.concatenate(points)
+        return points.min(axis=0), points.max(axis=0)
+
+    def _points_of_water(self, n):
+        if isinstance(self._water, Particles):
+            cloud = self._water.cloud(n)
+            return numpy.column_stack([cloud[axis] for axis in "xyz"])
+        return self._water.at(n)[0]
+
+    def _find_camera(self, low, high, size):
+        camera = self._wanted_camera(low, high, size)
+        camera.is_flat = self._dimensions == 2
+        return camera
+
+    def _wanted_camera(self, low, high, size):
+        options = self._options
+        if options.eye:
+            target = numbers(options.target, 3, "--target") if options.target else (low + high) / 2
+            eye = numbers(options.eye, 3, "--eye")
+            if numpy.allclose(eye, target):
+                raise Failure("--eye and --target are one place: there is nothing to see")
+            upright = numpy.linalg.norm((eye - target)[:2]) > 1e-3 * numpy.linalg.norm(eye - target)
+            return cameras.Camera(eye, target, up=(0, 0, 1) if upright else (0, 1, 0))
+        view = cameras.find_view(options.view) if options.view else cameras.view_of(self._scenery.title)
+        if view:
+            return cameras.from_rviz(view)
+        return cameras.fitting(low, high, self._dimensions, size[0] / size[1])
+
+    def _add_shapes(self, low, high):
+        picture, stage = self._picture, self.stage
+        width = max(1.0, stage.size[1] / 500)
+        for name, shape in self._scenery.meshes.items():
+            if name == "tank":
+                self._add_tank(shape, low, high)
+            else:
+                self._actors.append((stage.add_mesh(shape.points, picture.BODY), shape.pose))
+        for name, shape in self._scenery.edges.items():
+            colour = picture.GLASS_EDGE if name == "tank" else picture.BODY_EDGE
+            self._actors.append((stage.add_edges(shape.points, colour, width), shape.pose))
+
+    def _add_tank(self, shape, low, high):
+        """Walls behind the water as they are, those before it as glass."""
+        corners = shape.points.reshape(-1, 3, 3)
+        normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        inwards = numpy.einsum("ij,ij->i", normals, (low + high) / 2 - corners[:, 0]) >= 0
+        normals[~inwards] *= -1
+        behind = numpy.einsum("ij,ij->i", normals, self.stage.eye - corners[:, 0]) > 0
+        if self._dimensions == 2:
+            return  # its edges say all
+        for which, colour, opacity in ((behind, self._picture.FLOOR, 1.0), (~behind, self._picture.GLASS, 0.08)):
+            if which.any():
+                self._actors.append((self.stage.add_mesh(corners[which].reshape(-1, 3), colour, opacity), None))
+
+    def _add_water(self, extent):
+        radius = 0.5 * (self._spacing or 0.005 * float(numpy.linalg.norm(extent)))
+        if isinstance(self._water, Particles):
+            low, high = self._range()
+            table = self._picture.colour_table(self._options.colour, low, high)
+            self._look = self._picture.SphereLook(self.stage, 1.1 * radius, table)
+            self.stage.add_scale(table, UNITS[self._options.colour])
+        else:
+            self._look = self._picture.SurfaceLook(self.stage, 0.7 * radius)
+        self._actors += [(actor, None) for actor in self._look.actors]
+
+    def _range(self):
+        """Of the colours, the same in all pictures: nearly all values that a few of the times have."""
+        if self._options.range:
+            low, high = numbers(self._options.range, 2, "--range")
+            if not low < high:
+                raise Failure("--range '%s': the first must be less than the second" % self._options.range)
+            return low, high
+        count = len(self._water.stamps)
+        values = [value_of(self._water.cloud(n), self._options.colour) for n in sorted(set(numpy.linspace(0, count - 1, 12).astype(int)))]
+        values = numpy.concatenate(values) if values else numpy.zeros(0)
+        high = float(numpy.percentile(values, 99)) if len(values) else 1.0
+        low = 0.0 if self._options.colour == "speed" else min(0.0, float(numpy.percentile(values, 1)) if len(values) else 0.0)
+        return low, rounded_up(max(high, low + 1e-6))
+
+    def draw(self, n):
+        stamp = int(self._water.stamps[n])
+        picture = self._picture
+        tank = numpy.eye(4)
+        if self._camera.in_world and self._scenery.tank_pose is not None:
+            tank = picture.matrix_of(*self._scenery.tank_pose.at(stamp))
+        for actor, pose in self._actors:
+            picture.place(actor, tank if pose is None else tank @ picture.matrix_of(*pose.at(stamp)))
+        if isinstance(self._water, Particles):
+            cloud = self._water.cloud(n)
+            self._look.show(numpy.column_stack([cloud[axis] for axis in "xyz"]), value_of(cloud, self._options.colour))
+        else:
+            self._look.show(*self._water.at(n))
+        self._clock.SetInput("t = %.2f s" % (stamp / 1e9))
+        return self.stage.draw()
+
+
+def main(arguments):
+    options = read_arguments(arguments)
+    ending, size = ending_of(options.output), picture_size(options.size)
+    recording = Recording(options.bag, options.namespace)
+    scenery = Scenery(recording)
+    water = scenery.particles() if options.water == "particles" else scenery.water()
+    if options.water == "surface" and isinstance(water, Particles):
+        raise Failure("'%s' holds no surface of the water: write it with wavetank_run --surface" % options.bag)
+    times = times_of(options, water.stamps, ending)
+    try:
+        with Display():
+            write(options, ending, size, Drawing(scenery, water, options, size), times)
+    except OSError as error:
+        raise Failure("cannot write '%s': %s" % (options.output, error.strerror or error))
+    print("wrote '%s'" % options.output)
+
+
+def write(options, ending, size, drawing, times):
+    try:
+        if ending in PICTURES:
+            write_png(options.output, drawing.draw(times[0]))
+            return
+        film = Film(options.output, ending, size, frames_a_second(options, ending))
+        try:
+            for count, n in enumerate(times):
+                film.add(drawing.draw(n))
+                if sys.stdout.isatty():
+                    print("\rpicture %d of %d" % (count + 1, len(times)), end="", flush=True)
+            film.end()
+        finally:
+            film.discard()
+            if sys.stdout.isatty():
+                print("\r\033[K", end="")
+    finally:
+        drawing.stage.end()

@@ -1,0 +1,198 @@
+"""What a bag shows: tank and bodies as meshes where they are, the water as a surface or as particles."""
+
+import os
+import re
+
+import numpy
+
+from wavetank import Failure
+from wavetank.runs import read_yaml
+
+CLOUDS = ("particles", "free_surface")
+SURFACE = "surface_mesh"
+MARKER, MARKERS = "visualization_msgs/Marker", "visualization_msgs/MarkerArray"
+ADD, LINES, POINTS, RESOURCE, TRIANGLES = 0, 5, 8, 10, 11  # of visualization_msgs/Marker
+TANK = "tank"
+
+
+def turned(quaternion, vectors):
+    """Rows of vectors turned by x y z w."""
+    axis, real = quaternion[:3], quaternion[3]
+    first = 2.0 * numpy.cross(axis, vectors)
+    return vectors + real * first + numpy.cross(axis, first)
+
+
+def vector(message):
+    return numpy.array([message[axis] for axis in "xyz"], dtype=float)
+
+
+def rows(points):
+    """Of an array of geometry_msgs/Point."""
+    return numpy.column_stack([points[axis] for axis in "xyz"]) if len(points) else numpy.empty((0, 3))
+
+
+def placed(marker, points):
+    pose = marker["pose"]
+    return turned(numpy.array([pose["orientation"][axis] for axis in "xyzw"], dtype=float), points) + vector(pose["position"])
+
+
+def read_stl(path):
+    """The corners of the triangles of a binary or ASCII STL file, three rows each."""
+    with open(path, "rb") as file:
+        content = file.read()
+    count = int.from_bytes(content[80:84], "little")
+    if len(content) == 84 + 50 * count:
+        facets = numpy.frombuffer(content, numpy.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")]), count, 84)
+        return facets["corners"].reshape(-1, 3).astype(float)
+    corners = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", content)
+    return numpy.array([[float(number) for number in corner] for corner in corners]).reshape(-1, 3)
+
+
+def package_path(uri):
+    """Of a package:// address, or None where the package is not known here."""
+    try:
+        import rospkg
+
+        package, _, rest = uri[len("package://") :].partition("/")
+        return os.path.join(rospkg.RosPack().get_path(package), rest)
+    except Exception:  # of rospkg, or that it is not installed
+        return None
+
+
+def resource_points(marker):
+    """Of a mesh that a marker only names, as those of a live node do; None where it cannot be read here."""
+    path = package_path(marker["mesh_resource"]) if marker["mesh_resource"].startswith("package://") else None
+    if path is None or not path.lower().endswith(".stl"):
+        return None
+    try:
+        return read_stl(path) * vector(marker["scale"])
+    except (OSError, ValueError):
+        return None
+
+
+class Pose:
+    """Where a body that moves is at a time."""
+
+    def __init__(self, table):
+        self._times = table.stamps
+        self._positions = table.array("position_x", "position_y", "position_z")
+        self._turns = table.array("orientation_x", "orientation_y", "orientation_z", "orientation_w")
+
+    def at(self, stamp):
+        """(position, x y z w). Between two samples in even parts; samples are so near to each other that turns need no better."""
+        after = int(numpy.clip(numpy.searchsorted(self._times, stamp), 1, max(len(self._times) - 1, 1)))
+        before = after - 1
+        after = min(after, len(self._times) - 1)
+        gap = self._times[after] - self._times[before]
+        share = min(max((stamp - self._times[before]) / gap, 0.0), 1.0) if gap else 0.0
+        position = self._positions[before] + share * (self._positions[after] - self._positions[before])
+        first, second = self._turns[before], self._turns[after]
+        turn = first + share * ((second if first @ second >= 0 else -second) - first)
+        return position, turn / numpy.linalg.norm(turn)
+
+    def place(self, points, stamp):
+        position, turn = self.at(stamp)
+        return turned(turn, points) + position
+
+
+class Shape:
+    """Triangles, three points each, or lines, two points each, of the tank or a body. pose: of what moves, in whose frame the points are, or None."""
+
+    def __init__(self, name, kind, points, pose=None):
+        self.name, self.kind, self.points, self.pose = name, kind, points, pose
+
+    def at(self, stamp):
+        """The points in the tank's frame."""
+        return self.points if self.pose is None else self.pose.place(self.points, stamp)
+
+
+class Scenery:
+    """title; case: the case as read from YAML; shapes: lists of Shape, meshes and edges; tank_pose: of a tank that moves, else None."""
+
+    def __init__(self, recording):
+        self._recording = recording
+        self.text = recording.text("case") or ""
+        case = read_yaml(self.text)
+        self.case = case if isinstance(case, dict) else {}
+        self.title = str(self.case.get("title", ""))
+        self.poses = {name.split("/")[1]: Pose(recording.table(name)) for name in recording.names if name.endswith("/odom")}
+        self.tank_pose = self.poses.get(TANK)
+        self.meshes, self.edges = self._read_shapes()
+
+    def _read_shapes(self):
+        names = [body["name"] for body in self.case.get("bodies") or []]
+        message = self._recording.first("markers", MARKERS)
+        meshes, edges = {}, {}
+        for marker in message["markers"] if message else []:
+            group = marker["ns"]
+            if marker["action"] != ADD or group not in ("tank", "tank edges", "bodies", "body edges"):
+                continue
+            number = int(marker["id"])
+            name = TANK if group.startswith(TANK) else names[number] if number < len(names) else "body_%d" % number
+            points = resource_points(marker) if marker["type"] == RESOURCE else rows(marker["points"])
+            if points is None or not len(points):
+                continue
+            pose = self.poses.get(name) if "/bodies/" in marker["header"]["frame_id"] else None
+            kind = {LINES: "Lines"}.get(marker["type"], "Polys")
+            (edges if kind == "Lines" else meshes)[name] = Shape(name, kind, placed(marker, points), pose)
+        return meshes, edges
+
+    def shapes(self):
+        """Meshes, and the edges of what has no mesh here."""
+        return list(self.meshes.values()) + [edge for name, edge in self.edges.items() if name not in self.meshes]
+
+    def number(self, *path):
+        """A number of the case, by its keys, or None."""
+        value = self.case
+        for key in path:
+            value = value.get(key) if isinstance(value, dict) else None
+        return float(value) if isinstance(value, (int, float)) else None
+
+    def water(self):
+        """What the bag has of it: a Surface, or else Particles. Raises Failure."""
+        surface = Surface(self._recording)
+        if len(surface.stamps):
+            return surface
+        return self.particles()
+
+    def particles(self):
+        for name in CLOUDS:
+            if self._recording.has_cloud(name):
+                return Particles(self._recording, name)
+        raise Failure(
+            "'%s' holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds" % self._recording.path
+        )
+
+
+class Particles:
+    """stamps: ns. name: of the cloud."""
+
+    def __init__(self, recording, name):
+        self.name = name
+        self._stream = recording.stream(name, "sensor_msgs/PointCloud2")
+        self.stamps = self._stream.stamps
+
+    def cloud(self, n):
+        from wavetank.recording import cloud_of
+
+        return cloud_of(self._stream.read(n))
+
+
+class Surface:
+    """The water's surface as triangles, and the spray beside it. stamps: ns."""
+
+    name = "surface"
+
+    def __init__(self, recording):
+        self._stream = recording.stream(SURFACE, MARKER)
+        self.stamps = numpy.unique(self._stream.stamps)
+
+    def at(self, n):
+        """(corners of triangles, points of spray): rows x y z."""
+        found = {"surface": numpy.empty((0, 3)), "spray": numpy.empty((0, 3))}
+        first, last = numpy.searchsorted(self._stream.stamps, [self.stamps[n], self.stamps[n] + 1])
+        for place in range(first, last):
+            marker = self._stream.read(place)
+            if marker["action"] == ADD and marker["ns"] in found and marker["type"] in (TRIANGLES, POINTS):
+                found[marker["ns"]] = placed(marker, rows(marker["points"]))
+        return found["surface"], found["spray"]
