@@ -22,7 +22,12 @@ namespace {
 constexpr double least_delay = 1e-9;  ///< s, below any step
 const char* const data_folder = "data";
 
-/// Leaves an empty folder that can be written to.
+std::string without_last_slash(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
+/// Leaves an empty folder that can be written to; files come into it once the run has started.
 void make_folder(const std::string& folder) {
   const std::string what = "cannot write files for ParaView into '" + folder + "': ";
   std::error_code problem;
@@ -34,9 +39,9 @@ void make_folder(const std::string& folder) {
     if (!is_empty) throw Error(what + "it is not empty; give a new folder, or empty it");
   } else if (!fs::create_directory(folder, problem)) {
     const fs::path parent = fs::path(folder).parent_path();
-    throw Error(what + (problem.value() == ENOENT ? "there is no folder '" + parent.string() + "'" : problem.message()));
+    const bool has_parent = parent.empty() || fs::is_directory(parent);
+    throw Error(what + (has_parent ? problem.message() : "there is no folder '" + parent.string() + "'"));
   }
-  if (!fs::create_directory(folder + "/" + data_folder, problem)) throw Error(what + problem.message());
 }
 
 void append_point(std::vector<double>& points, const Vector3d& point) {
@@ -81,7 +86,7 @@ std::vector<std::string> names_of(const Instruments& instruments) {
 }  // namespace
 
 VtkRecorder::VtkRecorder(const std::string& folder, double rate, const Case& scene, std::string view)
-    : folder_(folder), period_(1.0 / rate), scene_(scene), view_(std::move(view)) {
+    : folder_(without_last_slash(folder)), period_(1.0 / rate), scene_(scene), view_(std::move(view)) {
   make_folder(folder_);
 }
 
@@ -103,6 +108,9 @@ void VtkRecorder::start(const Simulation& simulation) {
     shapes_.push_back({owner == 0 ? "tank" : "body_" + scene_.bodies[owner - 1].name, owner, &simulation.layout().meshes[owner],
                        owner > 0 && frames[owner].moves});
   next_ = simulation.state().time;
+  std::error_code problem;
+  if (!fs::create_directory(folder_ + "/" + data_folder, problem))
+    throw VtkError("cannot write files for ParaView into '" + folder_ + "': " + problem.message());
   write_file("view.py", view_);
   thread_ = std::thread([this] { write_frames(); });
 }

@@ -20,6 +20,7 @@ ParticleCloud row(std::size_t count) {
     cloud.velocity.emplace_back(-x, 2.0F, 3.0F);
     cloud.pressure.push_back(100.0F * x);
     cloud.density.push_back(998.0F + x);
+    cloud.mass.push_back(0.001F);
     cloud.shepard.push_back(0.5F);
     cloud.surface.push_back(i % 20 == 19 ? 1 : 0);
   }

@@ -68,7 +68,12 @@ def markers():
     tank.header.frame_id, hull.header.frame_id = "tank", "tank/bodies/hull"
     tank.pose.orientation.w = hull.pose.orientation.w = 1.0
     hull.pose.position = Point(*(-ORIGIN).tolist())  # from the body's frame to its mesh
-    return MarkerArray([tank, hull])
+    probes = [Marker(ns="probes", id=n, type=Marker.SPHERE) for n in range(2)]
+    probes[0].header.frame_id, probes[1].header.frame_id = hull.header.frame_id, "tank"
+    probes[0].pose.position, probes[1].pose.position = Point(0.1, 0, 0), Point(0.5, 0, 0)
+    for probe in probes:
+        probe.pose.orientation.w = 1.0
+    return MarkerArray([tank, hull] + probes)
 
 
 def hull_at(milliseconds):

@@ -20,11 +20,11 @@ except ImportError as error:
     raise Failure("pictures are drawn by VTK, which is not there (%s): %s (Debian: python3-vtk9)" % (error, INSTALL))
 
 # red, green, blue
-SKY, HORIZON = (0.70, 0.80, 0.90), (0.97, 0.98, 0.99)
+SKY, HORIZON = (0.56, 0.67, 0.79), (0.86, 0.90, 0.94)
 WATER = (0.10, 0.42, 0.75)
 BODY, BODY_EDGE = (0.95, 0.58, 0.15), (0.35, 0.20, 0.05)
 GLASS, GLASS_EDGE = (0.80, 0.86, 0.90), (0.25, 0.30, 0.36)
-FLOOR = (0.86, 0.86, 0.84)
+FLOOR = (0.74, 0.74, 0.73)
 INK = (0.08, 0.10, 0.14)
 SCALES = {  # of what water is coloured by: low to high
     "speed": [(0.05, 0.26, 0.60), (0.09, 0.43, 0.78), (0.25, 0.64, 0.91), (0.64, 0.86, 0.97), (1.0, 1.0, 1.0)],
@@ -142,7 +142,7 @@ class Stage:
         actor = self.add(data, colour, opacity)
         look = actor.GetProperty()
         look.SetInterpolationToFlat()
-        look.SetAmbient(0.45)
+        look.SetAmbient(0.55)
         look.SetDiffuse(0.6)
         return actor
 
@@ -164,13 +164,13 @@ class Stage:
     def add_scale(self, table, title):
         bar = vtkScalarBarActor()
         bar.SetLookupTable(table)
-        bar.SetNumberOfLabels(5)
+        bar.SetNumberOfLabels(5 if self.size[0] > 700 else 3)
         bar.SetOrientationToHorizontal()
         bar.SetPosition(0.66, 0.015)
         bar.SetWidth(0.32)
         bar.SetHeight(0.07)
         self.add_text((0.66, 0.09), max(10, self.size[1] // 45)).SetInput(title)
-        bar.SetLabelFormat("%-#.3g")
+        bar.SetLabelFormat("%.3g")
         bar.UnconstrainedFontSizeOn()
         labels = bar.GetLabelTextProperty()
         labels.SetColor(*INK)
@@ -203,22 +203,22 @@ class SurfaceLook:
         self._actor = stage.add(vtkPolyData(), WATER, 0.72)
         look = self._actor.GetProperty()
         look.SetInterpolationToPhong()
-        look.SetAmbient(0.22)
-        look.SetDiffuse(0.75)
+        look.SetAmbient(0.32)
+        look.SetDiffuse(0.7)
         look.SetSpecular(0.9)
         look.SetSpecularPower(60)
         look.SetSpecularColor(1, 1, 1)
         self._actor.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", False, FRESNEL, False)
         self._actor.ForceTranslucentOn()
-        stage.renderer.UseDepthPeelingOn()
-        stage.renderer.SetMaximumNumberOfPeels(3)
-        stage.renderer.SetOcclusionRatio(0.01)
         self._spray = SphereLook(stage, spray_radius)
         self.actors = [self._actor, self._spray.actor]
 
-    def show(self, corners, spray):
+    def show(self, corners, spray, eye):
+        """eye: where the camera is, in the frame of the corners: what is translucent is drawn from behind."""
         if len(corners):
             points, places = shared(corners)
+            middles = corners.reshape(-1, 3, 3).mean(axis=1)
+            places = places.reshape(-1, 3)[numpy.argsort(-numpy.sum((middles - eye) ** 2, axis=1), kind="stable")].ravel()
             data = polygons(points, 1)
             data.SetVerts(None)
             set_cells(data, places, 3)
@@ -234,9 +234,9 @@ class SurfaceLook:
 
 
 class SphereLook:
-    """Particles as balls, of one colour or coloured by a value of theirs."""
+    """Particles as balls, of one colour or coloured by a value of theirs; is_flat: without light and shade, as a section is drawn."""
 
-    def __init__(self, stage, radius, table=None):
+    def __init__(self, stage, radius, table=None, is_flat=False):
         self._mapper = vtkOpenGLSphereMapper()
         self._mapper.SetRadius(radius)
         if table is not None:
@@ -253,6 +253,8 @@ class SphereLook:
         look.SetDiffuse(0.75)
         look.SetSpecular(0.25)
         look.SetSpecularPower(30)
+        if is_flat:
+            look.LightingOff()
         stage.renderer.AddActor(self.actor)
         self.actors = [self.actor]
 

@@ -62,7 +62,18 @@ def read_arguments(arguments):
     parser.add_argument("--colour", choices=("speed", "pressure"), default="speed", help="that particles are coloured by (speed)")
     parser.add_argument("--range", metavar="LOW,HIGH", help="of the colours, m/s or Pa")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
-    return parser.parse_args(arguments)
+    return parser.parse_args(with_values(arguments))
+
+
+def with_values(arguments):
+    """Places may begin with a minus, which argparse takes for an option if it stands by itself."""
+    result = []
+    for argument in arguments:
+        if result and result[-1] in ("--eye", "--target", "--range"):
+            result[-1] += "=" + argument
+        else:
+            result.append(argument)
+    return result
 
 
 def times_of(options, stamps, ending):
@@ -123,19 +134,23 @@ def value_of(cloud, name):
 
 def rounded_up(value):
     """To a number that reads well."""
-    step = 10.0 ** numpy.floor(numpy.log10(value)) / 5
+    step = 0.4 * 10.0 ** numpy.floor(numpy.log10(value))  # so that a quarter of it does, too
     return float(step * numpy.ceil(value / step - 1e-9))
+
+
+def find_ffmpeg():
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise Failure("films are written by ffmpeg, which is not there: %s (Debian: ffmpeg); pictures (.png) do without" % INSTALL)
+    return program
 
 
 class Film:
     """Pictures one after the other into a file, by ffmpeg."""
 
     def __init__(self, path, ending, size, fps):
-        program = shutil.which("ffmpeg")
-        if program is None:
-            raise Failure("films are written by ffmpeg, which is not there: %s (Debian: ffmpeg); pictures (.png) do without" % INSTALL)
         self._path, self._part = path, path + ".part" + ending
-        command = [program, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
+        command = [find_ffmpeg(), "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
         if ending == ".gif":
             command += ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4"]
         else:
@@ -204,8 +219,10 @@ class Drawing:
         self._camera = self._find_camera(low, high, size)
         self.stage = picture.Stage(size, self._camera)
         self._actors = []  # (actor, pose or None)
+        self._glass = numpy.empty((0, 3))
         self._add_shapes(low, high)
         self._add_water(high - low)
+        self._add_glass()
         self._clock = self.stage.add_text((0.02, 0.02), max(12, size[1] // 26))
 
     def _bounds(self):
@@ -261,16 +278,22 @@ class Drawing:
         behind = numpy.einsum("ij,ij->i", normals, self.stage.eye - corners[:, 0]) > 0
         if self._dimensions == 2:
             return  # its edges say all
-        for which, colour, opacity in ((behind, self._picture.FLOOR, 1.0), (~behind, self._picture.GLASS, 0.08)):
-            if which.any():
-                self._actors.append((self.stage.add_mesh(corners[which].reshape(-1, 3), colour, opacity), None))
+        if behind.any():
+            self._actors.append((self.stage.add_mesh(corners[behind].reshape(-1, 3), self._picture.FLOOR), None))
+        self._glass = corners[~behind].reshape(-1, 3)
+
+    def _add_glass(self):
+        """After the water, since it is before it."""
+        if len(self._glass):
+            self._actors.append((self.stage.add_mesh(self._glass, self._picture.GLASS, 0.08), None))
 
     def _add_water(self, extent):
         radius = 0.5 * (self._spacing or 0.005 * float(numpy.linalg.norm(extent)))
         if isinstance(self._water, Particles):
             low, high = self._range()
             table = self._picture.colour_table(self._options.colour, low, high)
-            self._look = self._picture.SphereLook(self.stage, 1.1 * radius, table)
+            is_flat = self._dimensions == 2
+            self._look = self._picture.SphereLook(self.stage, (1.7 if is_flat else 1.1) * radius, table, is_flat)
             self.stage.add_scale(table, UNITS[self._options.colour])
         else:
             self._look = self._picture.SurfaceLook(self.stage, 0.7 * radius)
@@ -302,7 +325,8 @@ class Drawing:
             cloud = self._water.cloud(n)
             self._look.show(numpy.column_stack([cloud[axis] for axis in "xyz"]), value_of(cloud, self._options.colour))
         else:
-            self._look.show(*self._water.at(n))
+            eye = numpy.linalg.solve(tank, numpy.append(self.stage.eye, 1.0))[:3]
+            self._look.show(*self._water.at(n), eye)
         self._clock.SetInput("t = %.2f s" % (stamp / 1e9))
         return self.stage.draw()
 
@@ -316,6 +340,11 @@ def main(arguments):
     if options.water == "surface" and isinstance(water, Particles):
         raise Failure("'%s' holds no surface of the water: write it with wavetank_run --surface" % options.bag)
     times = times_of(options, water.stamps, ending)
+    # told before anything is drawn
+    if ending in FILMS:
+        find_ffmpeg()
+    from wavetank import picture  # noqa: F401: imports VTK
+
     try:
         with Display():
             write(options, ending, size, Drawing(scenery, water, options, size), times)

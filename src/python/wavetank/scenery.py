@@ -107,7 +107,8 @@ class Shape:
 
 
 class Scenery:
-    """title; case: the case as read from YAML; shapes: lists of Shape, meshes and edges; tank_pose: of a tank that moves, else None."""
+    """title; case: the case as read from YAML; meshes, edges: Shape by the name of its owner; probes: points as Shape, in the case's order, as far as the
+    bag has its markers; tank_pose: of a tank that moves, else None."""
 
     def __init__(self, recording):
         self._recording = recording
@@ -117,25 +118,25 @@ class Scenery:
         self.title = str(self.case.get("title", ""))
         self.poses = {name.split("/")[1]: Pose(recording.table(name)) for name in recording.names if name.endswith("/odom")}
         self.tank_pose = self.poses.get(TANK)
-        self.meshes, self.edges = self._read_shapes()
-
-    def _read_shapes(self):
-        names = [body["name"] for body in self.case.get("bodies") or []]
-        message = self._recording.first("markers", MARKERS)
-        meshes, edges = {}, {}
+        self.meshes, self.edges, self.probes = {}, {}, []
+        message = recording.first("markers", MARKERS)
         for marker in message["markers"] if message else []:
-            group = marker["ns"]
-            if marker["action"] != ADD or group not in ("tank", "tank edges", "bodies", "body edges"):
-                continue
-            number = int(marker["id"])
-            name = TANK if group.startswith(TANK) else names[number] if number < len(names) else "body_%d" % number
-            points = resource_points(marker) if marker["type"] == RESOURCE else rows(marker["points"])
-            if points is None or not len(points):
-                continue
-            pose = self.poses.get(name) if "/bodies/" in marker["header"]["frame_id"] else None
-            kind = {LINES: "Lines"}.get(marker["type"], "Polys")
-            (edges if kind == "Lines" else meshes)[name] = Shape(name, kind, placed(marker, points), pose)
-        return meshes, edges
+            if marker["action"] == ADD:
+                self._add(marker)
+
+    def _add(self, marker):
+        group, number = marker["ns"], int(marker["id"])
+        body = marker["header"]["frame_id"].partition("/bodies/")[2]  # that it is drawn in the frame of
+        if group == "probes":
+            self.probes.append(Shape(group, "Verts", placed(marker, numpy.zeros((1, 3))), self.poses.get(body)))
+        if group not in ("tank", "tank edges", "bodies", "body edges"):
+            return
+        names = [each["name"] for each in self.case.get("bodies") or []]
+        name = TANK if group.startswith(TANK) else names[number] if number < len(names) else "body_%d" % number
+        points = resource_points(marker) if marker["type"] == RESOURCE else rows(marker["points"])
+        if points is not None and len(points):
+            kind = "Lines" if marker["type"] == LINES else "Polys"
+            (self.edges if kind == "Lines" else self.meshes)[name] = Shape(name, kind, placed(marker, points), self.poses.get(body))
 
     def shapes(self):
         """Meshes, and the edges of what has no mesh here."""

@@ -165,15 +165,10 @@ def readings_of(recording, scenery):
     found = []
     if "probes" in recording.names:
         table = recording.table("probes")
-        bodies = {probe["name"]: probe.get("body") for probe in (scenery.case.get("instruments") or {}).get("pressure_probes") or []}
-        starts = {name: pose.at(0) for name, pose in scenery.poses.items()}
+        drawn = dict(zip(table.columns, scenery.probes))
 
         def place_of_probe(name, value, stamp):
-            place, body = numpy.array(table.positions[name]), bodies.get(name)
-            if body not in scenery.poses:
-                return place
-            origin, _ = starts[body]  # where the body's axes are the case's
-            return scenery.poses[body].place((place - origin)[None, :], stamp)[0]
+            return drawn[name].at(stamp)[0] if name in drawn else numpy.array(table.positions[name])
 
         found.append(Readings("probes", "pressure", table, place_of_probe))
     if "gauges" in recording.names:

@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+"""render and export --vtk as a user runs them, against bags whose every place is known, and the files that wavetank_run --vtk writes."""
+
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy
+
+import program_runner
+import water_bag
+from program_runner import PACKAGE, ProgramTest, read_line_with
+from vtk_reading import read_collection, read_vtp
+from wavetank import rotations
+from wavetank.recording import Recording
+from wavetank.vtk_files import PolyData
+
+SCRIPTS = os.path.join(PACKAGE, "scripts")
+try:
+    import vtkmodules.vtkCommonCore  # noqa: F401
+except ImportError:
+    vtkmodules = None
+
+
+def is_there(program):
+    return any(os.access(os.path.join(folder, program), os.X_OK) for folder in os.environ["PATH"].split(os.pathsep))
+
+
+CAN_DRAW = vtkmodules is not None and is_there("Xvfb")
+CAN_FILM = CAN_DRAW and is_there("ffmpeg")
+MISSING = "python3-vtk9, xvfb or ffmpeg is not installed: scripts/install --render"
+
+
+class ToolTest(ProgramTest):
+    def run_tool(self, tool, *arguments, **environment):
+        return subprocess.run(
+            [sys.executable, os.path.join(SCRIPTS, tool)] + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+            cwd=self.folder, env=dict(os.environ, **environment), timeout=120,
+        )  # fmt: skip
+
+    def assert_sentence(self, done, words):
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(words, done.stderr)
+
+    def bag(self, **choices):
+        water_bag.write_bag(self.path("water.bag"), **choices)
+        return "water.bag"
+
+
+def read_png(path):
+    """Rows of red, green and blue, 0 to 1."""
+    from matplotlib import image
+
+    return image.imread(path)[:, :, :3]
+
+
+def blue_part(picture):
+    """Of the pixels: those in which blue is well above red, and above green."""
+    red, green, blue = (picture[:, :, k] for k in range(3))
+    return float(numpy.mean((blue > red + 0.25) & (blue > green + 0.05)))
+
+
+class Render(ToolTest):
+    @unittest.skipUnless(CAN_DRAW, MISSING)
+    def test_particles_make_a_picture(self):
+        bag = self.bag()
+        done = self.run_tool("render", bag, "-o", "water.png", "--at", "0.05", "--size", "320x180")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = read_png(self.path("water.png"))
+        self.assertEqual(picture.shape, (180, 320, 3))
+        self.assertGreater(blue_part(picture), 0.05)
+        red, blue = picture[:, :, 0], picture[:, :, 2]
+        self.assertGreater(numpy.mean(red > blue + 0.3), 0.002)  # the hull
+
+    @unittest.skipUnless(CAN_DRAW, MISSING)
+    def test_a_surface_is_drawn_where_there_is_one(self):
+        bag = self.bag(clouds=False, surface=True)
+        done = self.run_tool("render", bag, "-o", "water.png", "--size", "320x180", "--eye", "-0.3,-1.5,1.6", "--target", "0.5,0.5,0.4")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(blue_part(read_png(self.path("water.png"))), 0.05)
+
+    @unittest.skipUnless(CAN_FILM, MISSING)
+    def test_a_film_has_the_pictures_of_its_time(self):
+        done = self.run_tool("render", self.bag(), "-o", "water.gif", "--size", "160x90", "--fps", "10", "--speed", "0.25")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("water.gif"), "rb") as file:
+            content = file.read()
+        self.assertEqual(content[:6] + content[6:10], b"GIF89a" + bytes([160, 0, 90, 0]))
+        # from 0.05 s to 0.15 s, 0.025 s apart: some may be one picture shown for longer
+        delays = [int.from_bytes(delay, "little") for delay in re.findall(rb"\x21\xf9\x04.(..).\x00", content, re.DOTALL)]
+        self.assertGreaterEqual(len(delays), 2)
+        self.assertLess(abs(sum(delays) - 50), 15)
+        self.assertEqual([name for name in self.files() if "part" in name], [])
+
+    def test_what_is_wrong_is_one_sentence(self):
+        bag = self.bag()
+        water_bag.write_bag(self.path("dry.bag"), clouds=False)
+        for arguments, words in (
+            (["none.bag", "-o", "a.png"], "there is no bag 'none.bag'"),
+            (["dry.bag", "-o", "a.png"], "holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds"),
+            ([bag, "-o", "a.avi"], "'a.avi': films end in .mp4 or .gif, pictures in .png"),
+            ([bag, "-o", "no/such/a.png"], "there is no folder"),
+            ([bag, "-o", "a.png", "--at", "0.5"], "--at 0.5 s is outside of what 'water.bag' has of the water: from 0.05 to 0.15 s"),
+            ([bag, "-o", "a.mp4", "--from", "-1"], "--from -1 s is outside"),
+            ([bag, "-o", "a.mp4", "--from", "0.15", "--to", "0.05"], "is before --from"),
+            ([bag, "-o", "a.mp4", "--at", "0.1"], "--at is of a picture"),
+            ([bag, "-o", "a.png", "--size", "big"], "--size 'big' is not WIDTHxHEIGHT"),
+            ([bag, "-o", "a.png", "--water", "surface"], "holds no surface of the water"),
+        ):
+            self.assert_sentence(self.run_tool("render", *arguments), words)
+        self.assertEqual(self.files(), ["dry.bag", "water.bag"])
+
+    def test_what_is_not_installed_is_named(self):
+        os.mkdir(self.path("vtkmodules"))
+        with open(self.path("vtkmodules/__init__.py"), "w") as file:
+            file.write("raise ImportError('not here')\n")
+        found = self.folder + os.pathsep + os.environ.get("PYTHONPATH", "")
+        done = self.run_tool("render", self.bag(), "-o", "a.png", PYTHONPATH=found)
+        self.assert_sentence(done, "scripts/install --render installs it (Debian: python3-vtk9)")
+        done = self.run_tool("render", "water.bag", "-o", "a.png", PATH="/nowhere", DISPLAY="")
+        self.assert_sentence(done, "scripts/install --render installs it (Debian: xvfb)" if vtkmodules else "(Debian: python3-vtk9)")
+
+
+class Files(ToolTest):
+    def test_export_has_points_values_and_bodies_where_they_are(self):
+        done = self.run_tool("export", self.bag(surface=True), "--vtk", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        listed = read_collection(self.path("out/case.pvd"))
+        names = ["surface", "spray", "water", "tank", "body_hull", "probes", "gauges"]
+        self.assertEqual([(each, name) for each, name, _ in listed], [(time / 1e3, name) for time in water_bag.TIMES for name in names])
+        files = {(each, name): file for each, name, file in listed}
+        last = water_bag.TIMES[-1] / 1e3
+        arrays, counts = read_vtp(files[last, "water"])
+        rows = water_bag.particles()[:399]
+        self.assertEqual((counts["Points"], counts["Verts"], counts["Polys"]), (399, 1, 0))
+        self.assertEqual(arrays["points"].tolist(), rows[:, :3].tolist())
+        self.assertEqual(arrays["velocity"].tolist(), rows[:, 3:6].tolist())
+        self.assertEqual(arrays["pressure"].tolist(), rows[:, 6].tolist())
+        self.assertEqual((arrays["connectivity"].tolist(), arrays["offsets"].tolist()), (list(range(399)), [399]))
+        arrays, counts = read_vtp(files[last, "body_hull"])
+        self.assertEqual((counts["Points"], counts["Polys"]), (36, 12))
+        position, angle = water_bag.hull_at(water_bag.TIMES[-1])
+        expected = (water_bag.box(-0.1 * numpy.ones(3), 0.1 * numpy.ones(3))) @ rotations.turn_about(1, angle).T + position
+        numpy.testing.assert_allclose(arrays["points"], expected, atol=1e-9)
+        numpy.testing.assert_allclose(arrays["points"].mean(axis=0), position, atol=1e-6)
+        self.assertEqual(read_vtp(files[last, "tank"])[1]["Polys"], 10)
+        self.assertEqual(read_vtp(files[last, "surface"])[1]["Polys"], 200)
+        self.assertEqual(read_vtp(files[last, "spray"])[1]["Points"], 1)
+        arrays, _ = read_vtp(files[last, "probes"])
+        self.assertEqual((arrays["name"], arrays["pressure"].tolist()), (["P1", "P2"], [300.0, 7.0]))
+        # by a quarter about y, x is down
+        numpy.testing.assert_allclose(arrays["points"], [position - [0, 0, 0.1], [0.5, 0, 0]], atol=1e-9)
+        arrays, _ = read_vtp(files[last, "gauges"])
+        self.assertEqual((arrays["name"], arrays["level"].tolist()), (["G"], [0.4 + 0.01 * 3]))
+        numpy.testing.assert_allclose(arrays["points"], [[0.2, 0.3, 0.43]], atol=1e-9)
+        self.assertEqual([name for _, name, _ in read_collection(self.path("out/data/body_hull.pvd"))], ["body_hull"] * 2)
+        with open(self.path("out/view.py")) as file:
+            compile(file.read(), "view.py", "exec")
+        self.assert_sentence(self.run_tool("export", "water.bag", "--vtk", "out"), "into 'out': it is not empty; give a new folder")
+        self.assert_sentence(self.run_tool("export", "water.bag", "--vtk", "water.bag"), "it is no folder")
+
+    @unittest.skipUnless(vtkmodules, MISSING)
+    def test_vtk_reads_the_same(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+        self.assertEqual(self.run_tool("export", self.bag(surface=True), "--vtk", "out").returncode, 0)
+        for _, name, file in read_collection(self.path("out/case.pvd")):
+            reader = vtkXMLPolyDataReader()
+            reader.SetFileName(file)
+            reader.Update()
+            data, (arrays, counts) = reader.GetOutput(), read_vtp(file)
+            self.assertEqual(reader.GetErrorCode(), 0)
+            self.assertEqual((data.GetNumberOfPoints(), data.GetNumberOfVerts() + data.GetNumberOfPolys()), (counts["Points"], counts["Verts"] + counts["Polys"]))
+            self.assertEqual(vtk_to_numpy(data.GetPoints().GetData()).tolist(), arrays["points"].tolist())
+            for field in set(arrays) - {"points", "connectivity", "offsets", "name"}:
+                self.assertEqual(vtk_to_numpy(data.GetPointData().GetArray(field)).tolist(), arrays[field].tolist(), field)
+            if "name" in arrays:
+                texts = data.GetPointData().GetAbstractArray("name")
+                self.assertEqual([texts.GetValue(n) for n in range(texts.GetNumberOfValues())], arrays["name"])
+
+    def test_many_particles_are_small_and_quick(self):
+        # bars: 5 MB and 0.2 s a frame of 110 thousand; of time twice that, on a machine that is busy
+        count, random = 110000, numpy.random.default_rng(20)
+        fields = {"velocity": random.random((count, 3), "f4"), "pressure": random.random(count, "f4"), "density": random.random(count, "f4")}
+        fields.update(mass=numpy.full(count, 6.1, "f4"), id=numpy.arange(count, dtype="u4"), gamma=numpy.ones(count, "f4"), surface=numpy.zeros(count, "u1"))
+        data = PolyData(random.random((count, 3), "f4"), fields, "Verts")
+        before = time.process_time()
+        data.write(self.path("water.vtp"))
+        self.assertLess(time.process_time() - before, 0.4)
+        self.assertLess(os.path.getsize(self.path("water.vtp")), 5e6)
+
+
+FALLING = {"name": "ball", "box": {"min": [0.05, -0.1, 0.28], "max": [0.11, 0.1, 0.34]}, "motion": "free", "density": 500.0}
+
+
+class FilesOfARun(ToolTest):
+    def test_are_those_of_the_bag(self):
+        case = self.case(bodies=[FALLING], instruments__pose_rate=1000, rates={"cloud_bag": 50}, duration=0.09)
+        result = self.run_program(case, "--bag", "out.bag", "--particles", "--vtk", "out", "--vtk-rate", "50")
+        self.assert_runs(result)
+        self.assertIn("out/case.pvd", result.stdout)
+        recording = Recording(self.path("out.bag"))
+        clouds = list(recording.clouds("particles"))
+        listed = read_collection(self.path("out/case.pvd"))
+        water = [(at, file) for at, name, file in listed if name == "water"]
+        self.assertEqual([name for _, name, _ in listed[:5]], ["water", "tank", "body_ball", "probes", "gauges"])
+        self.assertEqual(len(water), 5)
+        numpy.testing.assert_allclose([at for at, _ in water], [stamp / 1e9 for stamp, _ in clouds], rtol=1e-8)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["case.pvd", "data", "view.py"])
+        for (_, file), (_, cloud) in zip(water, clouds):
+            arrays, _ = read_vtp(file)
+            self.assertEqual(arrays["id"].tolist(), sorted(arrays["id"].tolist()))
+            for field, column in (("pressure", "pressure"), ("density", "density"), ("gamma", "shepard"), ("surface", "surface")):
+                self.assertEqual(sorted(arrays[field].tolist()), sorted(cloud[column].tolist()))
+            rows = numpy.column_stack([cloud[axis] for axis in ("x", "y", "z", "vx", "vy", "vz")])
+            self.assertEqual(sorted(numpy.column_stack([arrays["points"], arrays["velocity"]]).tolist()), sorted(rows.tolist()))
+            self.assertAlmostEqual(float(arrays["mass"].sum()), 0.4 * 0.2 * 1000.0, delta=0.05)
+        odometry = recording.table("bodies/ball/odom")
+        for at, name, file in listed:
+            if name == "body_ball":
+                centre = read_vtp(file)[0]["points"].reshape(-1, 3).mean(axis=0)
+                # a body that falls is between two samples where a parabola has it
+                after = int(numpy.clip(numpy.searchsorted(odometry.times, at), 2, len(odometry) - 1))
+                fit = numpy.polyfit(odometry.times[after - 2 : after + 1] - at, odometry.columns["position_z"][after - 2 : after + 1], 2)
+                self.assertAlmostEqual(centre[2], fit[-1], delta=1e-6)
+        self.assertLess(centre[2], 0.305)  # it fell by gt²/2
+        gauge = [read_vtp(file)[0] for _, name, file in listed if name == "gauges"][-1]
+        self.assertEqual(gauge["name"], ["H1"])
+        self.assertAlmostEqual(gauge["level"][0], recording.table("gauges").columns["H1"][-1], delta=0.01)
+        probes = [read_vtp(file)[0] for _, name, file in listed if name == "probes"][0]
+        self.assertEqual(probes["pressure"].tolist(), [recording.table("probes").columns[name][0] for name in ("P1", "P2")])
+
+    def test_are_whole_after_a_kill(self):
+        run = self.start_program(self.case(duration=1000.0), "--vtk", "out", "--vtk-rate", "1000")
+        deadline = time.time() + 60
+        while time.time() < deadline and not os.path.exists(self.path("out/data/water_00020.vtp")):
+            time.sleep(0.01)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        listed = read_collection(self.path("out/case.pvd"))
+        self.assertGreaterEqual(len(listed), 20 * 5)
+        for _, _, file in listed:
+            self.assertGreater(read_vtp(file)[1]["Points"], 0, file)
+        for name in ("water", "tank", "body_step", "probes", "gauges"):
+            self.assertGreaterEqual(len(read_collection(self.path("out/data/%s.pvd" % name))), 20)
+
+    def test_what_is_wrong_is_one_sentence(self):
+        os.mkdir(self.path("full"))
+        open(self.path("full/other"), "w").close()
+        case = self.case()
+        for arguments, words in (
+            (["--vtk", "full"], "into 'full': it is not empty; give a new folder, or empty it"),
+            (["--vtk", "no/such"], "into 'no/such': there is no folder 'no'"),
+            (["--vtk", case], "it is no folder"),
+            (["--vtk", "/proc/out"], "cannot write files for ParaView into '/proc/out'"),
+            (["--vtk-rate", "10"], "--vtk-rate needs --vtk DIR"),
+            (["--vtk", "new", "--vtk-rate", "0"], "--vtk-rate must be greater than 0"),
+            (["--particles"], "--particles needs --bag FILE"),
+        ):
+            self.assert_refused(self.run_program(case, *arguments), words)
+        self.assertEqual(self.files(), ["case.yaml", "full"])
+
+    def test_a_file_that_cannot_grow_ends_the_run_with_all_until_then(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))  # the snapshot is larger, too
+
+        case = self.case(duration=1000.0)
+        result = self.run_program(case, "--vtk", "out", "--vtk-rate", "1000", preexec_fn=limit, timeout=120)
+        self.assert_refused(result, "cannot write the file for ParaView", "the run stops at")
+        listed = read_collection(self.path("out/case.pvd"))
+        self.assertGreater(len(listed), 5)
+        self.assertEqual([name for name in os.listdir(self.path("out")) if "part" in name], [])
+
+
+if __name__ == "__main__":
+    program_runner.main()
