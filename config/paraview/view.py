@@ -98,12 +98,13 @@ def main(arguments):
     scene = GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     if options.png:
+        view.ViewSize = [int(number) for number in options.size.split("x")]
         times = list(scene.TimeKeeper.TimestepValues)
         scene.AnimationTime = times[-1] if options.at is None else min(times, key=lambda time: abs(time - options.at))
     look(view)
     Render(view)
     if options.png:
-        SaveScreenshot(options.png, view, ImageResolution=[int(number) for number in options.size.split("x")])
+        SaveScreenshot(options.png, view, ImageResolution=view.ViewSize)
 
 
 main(sys.argv[1:])

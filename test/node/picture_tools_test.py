@@ -185,6 +185,18 @@ class Files(ToolTest):
                 texts = data.GetPointData().GetAbstractArray("name")
                 self.assertEqual([texts.GetValue(n) for n in range(texts.GetNumberOfValues())], arrays["name"])
 
+    @unittest.skipUnless(is_there("pvpython") and is_there("xvfb-run"), "pvpython or xvfb-run is not installed: Debian's python3-paraview, xvfb and xauth")
+    def test_paraview_shows_them(self):
+        self.assertEqual(self.run_tool("export", self.bag(), "--vtk", "out").returncode, 0)
+        command = ["xvfb-run", "-a", "pvpython", "out/view.py", "--png", "seen.png", "--at", "0.05", "--size", "320x180"]
+        done = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=120)
+        self.assertTrue(os.path.exists(self.path("seen.png")), done.stdout)
+        picture = read_png(self.path("seen.png"))
+        self.assertEqual(picture.shape, (180, 320, 3))
+        red, green, blue = (picture[:, :, k] for k in range(3))
+        self.assertGreater(numpy.mean(numpy.abs(red - blue) > 0.25), 0.05)  # the water, from blue to red by its speed
+        self.assertGreater(numpy.mean((red > 0.3) & (red > blue + 0.2) & (green > blue + 0.1)), 0.002)  # the hull
+
     def test_many_particles_are_small_and_quick(self):
         # bars: 5 MB and 0.2 s a frame of 110 thousand; of time twice that, on a machine that is busy
         count, random = 110000, numpy.random.default_rng(20)
