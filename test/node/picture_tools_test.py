@@ -14,7 +14,7 @@ import numpy
 
 import program_runner
 import water_bag
-from program_runner import PACKAGE, ProgramTest, read_line_with
+from program_runner import PACKAGE, ProgramTest
 from vtk_reading import read_collection, read_vtp
 from wavetank import rotations
 from wavetank.recording import Recording
@@ -177,7 +177,9 @@ class Files(ToolTest):
             reader.Update()
             data, (arrays, counts) = reader.GetOutput(), read_vtp(file)
             self.assertEqual(reader.GetErrorCode(), 0)
-            self.assertEqual((data.GetNumberOfPoints(), data.GetNumberOfVerts() + data.GetNumberOfPolys()), (counts["Points"], counts["Verts"] + counts["Polys"]))
+            self.assertEqual(
+                (data.GetNumberOfPoints(), data.GetNumberOfVerts() + data.GetNumberOfPolys()), (counts["Points"], counts["Verts"] + counts["Polys"])
+            )
             self.assertEqual(vtk_to_numpy(data.GetPoints().GetData()).tolist(), arrays["points"].tolist())
             for field in set(arrays) - {"points", "connectivity", "offsets", "name"}:
                 self.assertEqual(vtk_to_numpy(data.GetPointData().GetArray(field)).tolist(), arrays[field].tolist(), field)

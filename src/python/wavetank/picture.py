@@ -41,22 +41,19 @@ FRESNEL = """//VTK::Light::Impl
 )
 
 
-def polygons(points, size):
-    """Of points in a row, `size` to a cell; 0: all in one cell of vertices."""
+def polygons(points, size, corners=None):
+    """Of points in a row, or of those that `corners` names, `size` to a cell; 0: all in one cell of vertices."""
     data = vtkPolyData()
     holder = vtkPoints()
     holder.SetData(numpy_to_vtk(numpy.ascontiguousarray(points, dtype=numpy.float32), deep=True))
     data.SetPoints(holder)
-    set_cells(data, numpy.arange(len(points)), size)
-    return data
-
-
-def set_cells(data, corners, size):
+    corners = numpy.arange(len(points)) if corners is None else corners
     count = len(corners)
     offsets = numpy.arange(0, count + 1, size) if size else numpy.array([0, count])
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(offsets.astype(numpy.int64), deep=True), numpy_to_vtkIdTypeArray(corners.astype(numpy.int64), deep=True))
-    {0: data.SetVerts, 1: data.SetVerts, 2: data.SetLines, 3: data.SetPolys}[size](cells)
+    {0: data.SetVerts, 2: data.SetLines, 3: data.SetPolys}[size](cells)
+    return data
 
 
 def shared(corners):
@@ -219,11 +216,8 @@ class SurfaceLook:
             points, places = shared(corners)
             middles = corners.reshape(-1, 3, 3).mean(axis=1)
             places = places.reshape(-1, 3)[numpy.argsort(-numpy.sum((middles - eye) ** 2, axis=1), kind="stable")].ravel()
-            data = polygons(points, 1)
-            data.SetVerts(None)
-            set_cells(data, places, 3)
             normals = vtkPolyDataNormals()
-            normals.SetInputData(data)
+            normals.SetInputData(polygons(points, 3, places))
             normals.SplittingOff()
             normals.ConsistencyOff()
             normals.Update()

@@ -206,6 +206,21 @@ def write_png(path, picture):
     os.replace(path + ".part", path)
 
 
+def outer_walls(corners):
+    """Of triangles of a tank: which have all of it on one side, and their normals to that side."""
+    normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    points = numpy.unique(corners.reshape(-1, 3), axis=0)
+    points = points[:: max(1, len(points) // 2000)]  # of a fine mesh some are enough
+    slack = 1e-4 * numpy.linalg.norm(points.max(axis=0) - points.min(axis=0))
+    least, most = numpy.empty(len(corners)), numpy.empty(len(corners))
+    for begin in range(0, len(corners), 1000):
+        part = slice(begin, begin + 1000)
+        distances = normals[part] @ points.T - numpy.einsum("ij,ij->i", normals[part], corners[part, 0])[:, None]
+        least[part], most[part] = distances.min(axis=1), distances.max(axis=1)
+    return (least > -slack) | (most < slack), numpy.where(most[:, None] < slack, -normals, normals)
+
+
 class Drawing:
     """The stage of a bag, and how it changes with time."""
 
@@ -220,7 +235,7 @@ class Drawing:
         self.stage = picture.Stage(size, self._camera)
         self._actors = []  # (actor, pose or None)
         self._glass = numpy.empty((0, 3))
-        self._add_shapes(low, high)
+        self._add_shapes()
         self._add_water(high - low)
         self._add_glass()
         self._clock = self.stage.add_text((0.02, 0.02), max(12, size[1] // 26))
@@ -257,30 +272,29 @@ class Drawing:
             return cameras.from_rviz(view)
         return cameras.fitting(low, high, self._dimensions, size[0] / size[1])
 
-    def _add_shapes(self, low, high):
+    def _add_shapes(self):
         picture, stage = self._picture, self.stage
         width = max(1.0, stage.size[1] / 500)
         for name, shape in self._scenery.meshes.items():
             if name == "tank":
-                self._add_tank(shape, low, high)
+                self._add_tank(shape)
             else:
                 self._actors.append((stage.add_mesh(shape.points, picture.BODY), shape.pose))
         for name, shape in self._scenery.edges.items():
             colour = picture.GLASS_EDGE if name == "tank" else picture.BODY_EDGE
             self._actors.append((stage.add_edges(shape.points, colour, width), shape.pose))
 
-    def _add_tank(self, shape, low, high):
-        """Walls behind the water as they are, those before it as glass."""
-        corners = shape.points.reshape(-1, 3, 3)
-        normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        inwards = numpy.einsum("ij,ij->i", normals, (low + high) / 2 - corners[:, 0]) >= 0
-        normals[~inwards] *= -1
-        behind = numpy.einsum("ij,ij->i", normals, self.stage.eye - corners[:, 0]) > 0
+    def _add_tank(self, shape):
+        """Walls behind the water as they are, those before it as glass; those within the tank, which may be either, let something through."""
         if self._dimensions == 2:
             return  # its edges say all
-        if behind.any():
-            self._actors.append((self.stage.add_mesh(corners[behind].reshape(-1, 3), self._picture.FLOOR), None))
-        self._glass = corners[~behind].reshape(-1, 3)
+        corners = shape.points.reshape(-1, 3, 3)
+        outer, inwards = outer_walls(corners)
+        behind = outer & (numpy.einsum("ij,ij->i", inwards, self.stage.eye - corners[:, 0]) > 0)
+        for which, opacity in ((behind, 1.0), (~outer, 0.4)):
+            if which.any():
+                self._actors.append((self.stage.add_mesh(corners[which].reshape(-1, 3), self._picture.FLOOR, opacity), None))
+        self._glass = corners[outer & ~behind].reshape(-1, 3)
 
     def _add_glass(self):
         """After the water, since it is before it."""
