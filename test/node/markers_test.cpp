@@ -77,6 +77,9 @@ TEST(Markers, KeepAPackageMeshAsAResource) {
   EXPECT_EQ(body.pose.position.y, 2.0);
   EXPECT_NEAR(body.pose.orientation.z, std::sqrt(0.5), 1e-12);
   EXPECT_TRUE(body.points.empty());
+  const Marker recorded = find(markers(example, example_layout(), example_frames(example), false), "bodies");
+  EXPECT_EQ(recorded.type, Marker::TRIANGLE_LIST) << "a bag needs no file beside it";
+  EXPECT_EQ(recorded.points.size(), 3 * example_layout().meshes[1].triangles.size());
 }
 
 TEST(Markers, SendAMirroredMeshAsTriangles) {

@@ -76,6 +76,15 @@ class ProgramTest(unittest.TestCase):
         self.addCleanup(end)
         return process
 
+    def small_disk(self, size):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        mount = ["mount", "-t", "tmpfs", "-o", "size=" + size, "tmpfs", disk]
+        if os.geteuid() != 0 or subprocess.run(mount, stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small disk to fill can only be mounted by root, outside a container that forbids it")
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        return disk
+
     def assert_refused(self, result, *words):
         """One clear sentence on standard error that has the words, exit code 2, no crash."""
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)

@@ -51,6 +51,9 @@ TEST(RunOptions, RefuseWhatMakesNoSense) {
   EXPECT_THROW(read({"a.yaml", "--nonsense"}), Error);
   EXPECT_THROW(read({"a.yaml", "--set", "duration"}), Error);
   EXPECT_THROW(read({"a.yaml", "--clouds"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--particles"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--vtk-rate", "10"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--vtk", "out", "--vtk-rate", "nan"}), Error);
   EXPECT_THROW(read({"a.yaml", "b.yaml"}), Error);
   EXPECT_THROW(read({"a.yaml", "--bag"}), Error);
 }

@@ -475,15 +475,6 @@ class Refusals(ProgramTest):
 class FullDisks(ProgramTest):
     """What a run has until its disk is full is kept, and one sentence tells where."""
 
-    def small_disk(self, size):
-        disk = self.path("disk")
-        os.mkdir(disk)
-        mount = ["mount", "-t", "tmpfs", "-o", "size=" + size, "tmpfs", disk]
-        if os.geteuid() != 0 or subprocess.run(mount, stderr=subprocess.DEVNULL).returncode != 0:
-            self.skipTest("a small disk to fill can only be mounted by root, outside a container that forbids it")
-        self.addCleanup(subprocess.run, ["umount", disk], check=True)
-        return disk
-
     def assert_kept(self, result, bag, word):
         """The bag is whole up to the time of which the sentence speaks, and the snapshot where it says."""
         self.assert_refused(result, word, os.path.basename(bag))
