@@ -253,8 +253,8 @@ class SphereLook:
         self.actors = [self.actor]
 
     def show(self, points, values=None):
-        data = polygons(points, 0)
-        if values is not None:
+        data = polygons(points, 0) if len(points) else vtkPolyData()
+        if values is not None and len(points):
             data.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values, dtype=numpy.float32), deep=True))
         self._mapper.SetInputData(data)
 
