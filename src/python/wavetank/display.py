@@ -21,7 +21,9 @@ class Display:
             raise Failure("there is no display to draw on, and no Xvfb in its place: %s (Debian: xvfb)" % INSTALL)
         reading, writing = os.pipe()
         command = [program, "-displayfd", str(writing), "-screen", "0", "64x64x24", "-nolisten", "tcp", "-terminate"]
-        self._server = subprocess.Popen(command, pass_fds=[writing], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        silent = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        # in a session of its own, so that Ctrl-C ends what draws first; it ends by itself when nobody draws on it any more
+        self._server = subprocess.Popen(command, pass_fds=[writing], start_new_session=True, **silent)
         os.close(writing)
         with os.fdopen(reading) as numbers:
             number = numbers.readline().strip()  # once it takes connections

@@ -155,7 +155,7 @@ class Film:
             command += ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4"]
         else:
             command += ["-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
-        self._process = subprocess.Popen(command + [self._part], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+        self._process = subprocess.Popen(command + [self._part], stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
 
     def add(self, picture):
         try:
