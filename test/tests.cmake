@@ -24,6 +24,9 @@ foreach(library ${rooms})
   target_compile_options(${room}_test PRIVATE -O1)  # what is slow in them is the libraries'
   # what most of a test's compilation is spent on
   target_precompile_headers(${room}_test PRIVATE <gtest/gtest.h> <Eigen/Geometry> <cmath> <cstdio> <fstream> <functional> <map> <random> <string> <vector>)
+  if(room STREQUAL node)
+    target_link_libraries(${room}_test ZLIB::ZLIB)  # which unpacks what the room has packed
+  endif()
   if(room MATCHES "^(common|compute|instruments|node)$")  # whose tests' files have no names in common
     set_target_properties(${room}_test PROPERTIES UNITY_BUILD ${WAVETANK_FILES_TOGETHER})
   endif()
