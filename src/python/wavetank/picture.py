@@ -167,7 +167,7 @@ class Stage:
         bar.SetWidth(0.32)
         bar.SetHeight(0.07)
         self.add_text((0.66, 0.09), max(10, self.size[1] // 45)).SetInput(title)
-        bar.SetLabelFormat("%.3g")
+        bar.SetLabelFormat("%.5g")
         bar.UnconstrainedFontSizeOn()
         labels = bar.GetLabelTextProperty()
         labels.SetColor(*INK)
