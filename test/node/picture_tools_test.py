@@ -65,6 +65,10 @@ def blue_part(picture):
     return float(numpy.mean((blue > red + 0.25) & (blue > green + 0.05)))
 
 
+def orange(picture):
+    return picture[:, :, 0] > picture[:, :, 2] + 0.3
+
+
 class Render(ToolTest):
     @unittest.skipUnless(CAN_DRAW, MISSING)
     def test_particles_make_a_picture(self):
@@ -74,8 +78,11 @@ class Render(ToolTest):
         picture = read_png(self.path("water.png"))
         self.assertEqual(picture.shape, (180, 320, 3))
         self.assertGreater(blue_part(picture), 0.05)
-        red, blue = picture[:, :, 0], picture[:, :, 2]
-        self.assertGreater(numpy.mean(red > blue + 0.3), 0.002)  # the hull
+        hull = orange(picture)
+        self.assertGreater(numpy.mean(hull), 0.002)
+        self.assertEqual(self.run_tool("render", bag, "-o", "later.png", "--at", "0.16", "--size", "320x180").returncode, 0)
+        later = orange(read_png(self.path("later.png")))
+        self.assertLess(numpy.nonzero(later)[0].mean(), numpy.nonzero(hull)[0].mean() - 5)  # it rises
 
     @unittest.skipUnless(CAN_DRAW, MISSING)
     def test_a_surface_is_drawn_where_there_is_one(self):
