@@ -48,6 +48,13 @@ void append_point(std::vector<double>& points, const Vector3d& point) {
   for (int axis = 0; axis < 3; ++axis) points.push_back(point[axis]);
 }
 
+std::vector<Vector3d> corners_of(const TriangleMesh& mesh) {
+  std::vector<Vector3d> corners;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner) corners.push_back(mesh.corner(i, corner));
+  return corners;
+}
+
 /// By the particles' ids, so that a particle keeps its place from frame to frame as long as none comes or goes, and the ids pack well.
 VtkPolygons water_of(const ParticleCloud& cloud) {
   std::vector<std::uint32_t> order(cloud.id.size());
@@ -105,7 +112,7 @@ void VtkRecorder::start(const Simulation& simulation) {
   const std::vector<BodyFrame> frames = body_frames(scene_, reference_points(bodies));
   references_ = reference_points(bodies);
   for (std::size_t owner = 0; owner < bodies.count(); ++owner)
-    shapes_.push_back({owner == 0 ? "tank" : "body_" + scene_.bodies[owner - 1].name, owner, &simulation.layout().meshes[owner],
+    shapes_.push_back({owner == 0 ? "tank" : "body_" + scene_.bodies[owner - 1].name, owner, corners_of(simulation.layout().meshes[owner]),
                        owner > 0 && frames[owner].moves});
   next_ = simulation.state().time;
   std::error_code problem;
@@ -242,12 +249,9 @@ Vector3d VtkRecorder::place_of(const Frame& frame, const Vector3d& given, const 
 
 VtkPolygons VtkRecorder::triangles_of(const Shape& shape, const Frame& frame) const {
   std::vector<double> points;
-  points.reserve(9 * shape.mesh->triangles.size());
-  for (std::size_t i = 0; i < shape.mesh->triangles.size(); ++i)
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vector3d given = shape.mesh->corner(i, corner);
-      append_point(points, shape.moves ? frame.states[shape.owner].moved(given, references_[shape.owner]) : given);
-    }
+  points.reserve(3 * shape.corners.size());
+  for (const Vector3d& given : shape.corners)
+    append_point(points, shape.moves ? frame.states[shape.owner].moved(given, references_[shape.owner]) : given);
   VtkPolygons polygons;
   polygons.cells = VtkPolygons::Cells::triangles;
   polygons.points = points;

@@ -58,11 +58,11 @@ class VtkRecorder {
     std::vector<RigidState> states;  ///< in the tank, by owner
     Readings readings;
   };
-  /// A mesh whose points follow an owner.
+  /// A mesh that follows an owner. It is a copy: the thread may outlive the simulation.
   struct Shape {
     std::string name;
     std::size_t owner = 0;
-    const TriangleMesh* mesh = nullptr;
+    std::vector<Vector3d> corners;  ///< m, as the case's geometry has them, three a triangle
     bool moves = false;
   };
 
