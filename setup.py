@@ -3,4 +3,4 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=["wavetank"], package_dir={"": "src/python"}))
+setup(**generate_distutils_setup(packages=["wavetank", "wavetank.web"], package_dir={"": "src/python"}))

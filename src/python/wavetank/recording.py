@@ -160,9 +160,9 @@ class Recording:
     def has_cloud(self, name):
         return bool(self._connections(name, CLOUD))
 
-    def stream(self, name, kind):
-        """The messages of that name and type, whose first member is a header, one at a time."""
-        return Stream(self._bag, self._connections(name, kind), kind)
+    def stream(self, name, kind, header_at=0):
+        """The messages of that name and type, one at a time. header_at: bytes before their header."""
+        return Stream(self._bag, self._connections(name, kind), kind, header_at)
 
     def first(self, name, kind):
         """The first message of that name and type under the namespace, as nested dictionaries and lists; None if there is none."""
@@ -222,13 +222,13 @@ def joined(blocks):
 class Stream:
     """Messages that are too large to be read all at once. stamps: ns of simulated time, in order."""
 
-    def __init__(self, bag, connections, kind):
+    def __init__(self, bag, connections, kind, header_at=0):
         self._bag, self._kind = bag, kind
         found = []
         for number in connections:
             types = read_definition(kind, bag.connections[number].definition)
             for place in bag.places(number):
-                seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, 12), 4)  # after the header's count
+                seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, header_at + 12), header_at + 4)  # after the header's count
                 found.append((seconds * 1000000000 + nanoseconds, place, types))
         found.sort(key=lambda each: each[0])
         self.stamps = numpy.array([each[0] for each in found], numpy.int64)

@@ -1,0 +1,136 @@
+"""A bag as the page's source: each client asks for the pictures of the times that it shows."""
+
+import bisect
+import os
+
+import yaml
+
+from wavetank import Failure
+from wavetank.recording import CLOUD, Recording, cloud_of
+from wavetank.scenery import CLOUDS, MARKER, MARKERS, SURFACE, Pose
+from wavetank.web.drawing import Drawing, pose_numbers
+from wavetank.web.packets import cloud_packet, spray_packet, surface_packet
+from wavetank.web.requests import REPLAY
+from wavetank.web.series import Series
+
+HIDDEN = ("/pressure", "/viscous", "/odom", "status", "joint_states")  # ends of names that have no plot
+SHOWN_SAMPLES = 4096  # of an instrument
+
+
+def is_plotted(name):
+    return not name.endswith(HIDDEN)
+
+
+def table_of(table):
+    return {"name": table.name, "columns": list(table.columns), "units": [table.units[column] for column in table.columns]}
+
+
+class Replay:
+    """waters: which clouds, or "surface", the bag has. Raises Failure, also of a bag without any."""
+
+    requests, mode = REPLAY, "replay"
+
+    def __init__(self, path, namespace=None):
+        self._recording = Recording(path, namespace)
+        self._clouds = {name: self._recording.stream(name, CLOUD) for name in CLOUDS if self._recording.has_cloud(name)}
+        self._surface, self._spray = self._split_surface()
+        self.waters = list(self._clouds) + (["surface"] if self._surface else [])
+        if not self.waters:
+            raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds, or record:=true clouds:=true of a launch file" % path)
+        self._case = read_case(self._recording.text("case"))
+        self._poses = {name.split("/")[1]: Pose(self._recording.table(name)) for name in self._recording.names if name.endswith("/odom")}
+        self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4), Drawing()
+        if len(self._drawings):
+            self._drawing.follow(self._drawings.read(0))
+        self._series = [self._read_series(name) for name in self._recording.names if is_plotted(name)]
+
+    def _split_surface(self):
+        """Numbers of the messages that draw the surface, and those that draw the spray, with their times."""
+        self._markers = self._recording.stream(SURFACE, MARKER)
+        found = {"surface": [], "spray": []}
+        for n, stamp in enumerate(self._markers.stamps.tolist()):
+            found.get(self._markers.read(n)["ns"], []).append((stamp, n))
+        return found["surface"], found["spray"]
+
+    def _read_series(self, name):
+        table = self._recording.table(name)
+        series = Series(len(table.columns), SHOWN_SAMPLES)
+        if table.columns:
+            series.add(table.times, table.array(*table.columns))
+        return table_of(table), series
+
+    def known(self):
+        return {"waters": self.waters, "bodies": []}
+
+    def hello(self):
+        stamps = sorted({stamp for messages in self._clouds.values() for stamp in messages.stamps.tolist()} | {stamp for stamp, _ in self._surface})
+        return {
+            "kind": "hello",
+            "mode": self.mode,
+            "source": os.path.basename(self._recording.path),
+            "tank": self._recording.namespace,
+            "title": self._case["title"],
+            "dimensions": self._case["dimensions"],
+            "spacing": self._case["spacing"],
+            "waters": self.waters,
+            "bodies": [],
+            "times": [stamp / 1e9 for stamp in stamps],
+        }
+
+    def greet(self, mailbox):
+        """What a new client gets."""
+        mailbox.put("drawing", self._drawing.packet())
+        for table, series in self._series:
+            if len(series):
+                mailbox.add(table, series.times, series.values)
+
+    def pictures(self, time, water):
+        """Packets by kind of what the bag has last at a time (s), or first where that is later."""
+        stamp = int(round(time * 1e9))
+        pictures = self._surface_pictures(stamp) if water == "surface" else self._cloud_pictures(stamp, water)
+        lines = bisect.bisect_right(self._drawings.stamps, stamp) - 1
+        if lines > 0 and self._drawing.follow(self._drawings.read(lines)) == "lines":
+            pictures["lines"] = self._drawing.packet("lines")
+        return pictures
+
+    def _cloud_pictures(self, stamp, water):
+        messages = self._clouds[water]
+        cloud = messages.read(max(bisect.bisect_right(messages.stamps, stamp) - 1, 0))
+        at = stamp_of_header(cloud)
+        return {"cloud": cloud_packet(water, at, cloud_of(cloud), {"poses": self._poses_at(at)})}
+
+    def _surface_pictures(self, stamp):
+        pictures, at = {}, stamp
+        for kind, numbers, packet in (("surface", self._surface, surface_packet), ("spray", self._spray, spray_packet)):
+            if numbers:
+                at, n = numbers[max(bisect.bisect_right(numbers, (stamp, len(self._markers))) - 1, 0)]
+                pictures[kind] = packet(self._markers.read(n), at, {"poses": self._poses_at(at)})
+        return pictures
+
+    def _poses_at(self, stamp):
+        return {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}
+
+
+def stamp_of_header(message):
+    secs, nsecs = message["header"]["stamp"]
+    return secs * 1000000000 + nsecs
+
+
+def read_case(text):
+    """What the page wants to know of a case: title, dimensions, spacing (m), free bodies with their mass (kg; None where it is not told); each has a default where
+    the bag or node does not tell."""
+    try:
+        case = yaml.load(text or "", Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError:
+        case = None
+    case = case if isinstance(case, dict) else {}
+    fluid = case.get("fluid") if isinstance(case.get("fluid"), dict) else {}
+    spacing = fluid.get("spacing")
+    owners = [dict(case.get("tank") or {}, name="tank")] + [body for body in case.get("bodies") or [] if isinstance(body, dict)]
+    return {
+        "title": str(case.get("title") or ""),
+        "dimensions": 2 if case.get("dimensions") == 2 else 3,
+        "spacing": float(spacing) if isinstance(spacing, (int, float)) else None,
+        "world_frame": str(case.get("world_frame") or ""),
+        "free": {str(owner["name"]): owner.get("mass") if isinstance(owner.get("mass"), (int, float)) else None for owner in owners if owner.get("motion") == "free"},
+    }

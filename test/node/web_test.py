@@ -1,0 +1,491 @@
+#!/usr/bin/env python3
+"""The page in the browser: what is sent, what may be asked for, and a bag as a user sees it."""
+
+import asyncio
+import json
+import math
+import os
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.error
+import urllib.request
+
+import numpy
+import rosbag
+import rospy
+from geometry_msgs.msg import Point
+from nav_msgs.msg import Odometry
+from page_browser import MISSING, NO_SERVER, WEB, Browser, end, start_server
+from sensor_msgs.msg import PointCloud2, PointField
+from std_msgs.msg import String
+from visualization_msgs.msg import Marker, MarkerArray
+from wavetank.msg import ProbeArray
+from wavetank.recording import Recording
+from wavetank.web.drawing import Drawing
+from wavetank.web.mailbox import Mailbox
+from wavetank.web.meshes import read_obj, read_stl, triangles_of
+from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
+from wavetank.web.requests import LIVE, REPLAY, Refused, origin_is_ours, read_request
+from wavetank.web.series import Series
+
+RANDOM = numpy.random.default_rng(5)
+KNOWN = {"bodies": ["boat"], "waters": ["particles", "surface"]}
+PRESSURE = 1234.5678  # Pa, the last one
+
+
+class Packets(unittest.TestCase):
+    def test_arrays_come_back(self):
+        arrays = {"a": numpy.arange(3, dtype="<u2"), "b": RANDOM.random((2, 3)), "c": numpy.array([1, 2**32 - 1], "<u4"), "d": numpy.array([7], "u1")}
+        header, found = unpack(pack({"kind": "é"}, **arrays))
+        self.assertEqual(header["kind"], "é")
+        for name, values in arrays.items():
+            self.assertEqual(found[name].tobytes(), values.tobytes())
+
+    def test_positions_and_speeds_within_a_step_of_16_bits(self):
+        cloud = {axis: RANDOM.uniform(-1, 2, 500).astype("f4") for axis in ("x", "y", "z", "vx", "vy", "vz")}
+        header, arrays = unpack(cloud_packet("particles", 1500000000, cloud))
+        packed = arrays["points"].reshape(-1, 4).astype(float)
+        points = numpy.array(header["low"]) + packed[:, :3] / 65535 * header["size"]
+        numpy.testing.assert_allclose(points, numpy.column_stack([cloud[axis] for axis in "xyz"]), atol=0.51 * 3 / 65535 + 1e-6)
+        speeds = numpy.sqrt(sum(cloud[axis].astype(float) ** 2 for axis in ("vx", "vy", "vz")))
+        numpy.testing.assert_allclose(packed[:, 3] / 65535 * header["top_speed"], speeds, atol=1.01 * speeds.max() / 65535)
+        self.assertEqual(header["time"], 1.5)
+        self.assertEqual((speeds > header["typical_speed"] * (1 + 1e-6)).sum(), 10, "one in fifty is faster")
+
+    def test_clouds_of_nothing_of_the_plane_and_with_what_is_no_number(self):
+        empty = {axis: numpy.empty(0, "f4") for axis in ("x", "y", "z", "vx", "vy", "vz")}
+        self.assertEqual(len(unpack(cloud_packet("particles", 0, empty))[1]["points"]), 0)
+        flat = {axis: numpy.array([0.5, numpy.nan, 1.5] if axis == "x" else [0.0] * 3, "f4") for axis in ("x", "y", "z", "vx", "vy", "vz")}
+        header, arrays = unpack(cloud_packet("particles", 0, flat))
+        self.assertEqual(arrays["points"].tolist(), [0, 0, 0, 0, 65535, 0, 0, 0])
+        self.assertEqual((header["low"], header["size"]), ([0.5, 0, 0], [1.0, 0, 0]))
+
+    def test_corners_of_a_surface_are_shared(self):
+        square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 0, 0), (1, 1, 0), (0, 1, 0)]
+        kind = numpy.dtype([(axis, "<f8") for axis in "xyz"])
+        colour = {"r": 0.0, "g": 0.5, "b": 1.0, "a": 1.0}
+        marker = {"points": numpy.array(square, kind), "colors": numpy.empty(0), "color": colour, "ns": "surface"}
+        header, arrays = unpack(surface_packet(marker, 0))
+        points = numpy.array(header["low"]) + arrays["points"].reshape(-1, 4)[:, :3] / 65535 * header["size"]
+        self.assertEqual(len(points), 4)
+        numpy.testing.assert_allclose(points[arrays["corners"]], square, atol=1e-4)
+
+
+class Samples(unittest.TestCase):
+    def test_peaks_and_the_last_stay_in_bounded_memory(self):
+        times = numpy.arange(50000) / 1000
+        values = numpy.column_stack([numpy.sin(times), RANDOM.random(50000)])
+        values[12345, 1], values[33333, 1], values[20000, 0] = 9.0, -9.0, numpy.nan
+        series = Series(2, 1000)
+        for begin in range(0, 50000, 70):
+            series.add(times[begin : begin + 70], values[begin : begin + 70])
+            self.assertLessEqual(len(series), 1000)
+        self.assertGreater(len(series), 400)
+        self.assertEqual((series.values[:, 1].max(), series.values[:, 1].min()), (9.0, -9.0))
+        self.assertEqual((series.times[-1], series.times[0]), (times[-1], times[0]))
+        numpy.testing.assert_array_equal(series.values[-100:], values[-100:])
+        self.assertTrue((numpy.diff(series.times) > 0).all())
+
+    def test_a_client_that_does_not_read_loses_pictures_and_nothing_else(self):
+        mailbox = Mailbox()
+        table = {"name": "probes", "columns": ["P1"], "units": ["Pa"]}
+        for n in range(300):
+            mailbox.put("cloud", b"cloud %d" % n)
+            mailbox.put("poses", b"poses %d" % n)
+            mailbox.add(table, numpy.array([n / 10]), numpy.array([[float(n)]]))
+        mailbox.answer("yes")
+        taken = [mailbox.take(pictures)[0] for pictures in (True, True, False, True, True, True)]
+        self.assertEqual((taken[0], *taken[2:]), ("yes", None, b"cloud 299", b"poses 299", None))
+        header, arrays = unpack(taken[1])
+        self.assertEqual((header["name"], header["units"], header["clear"]), ("probes", ["Pa"], False))
+        self.assertEqual(arrays["values"].tolist(), list(range(300)))
+
+    def test_samples_of_another_run_take_the_place_of_those_that_wait(self):
+        mailbox = Mailbox()
+        table = {"name": "probes", "columns": ["P1"], "units": ["Pa"]}
+        mailbox.add(table, numpy.array([5.0]), numpy.array([[1.0]]))
+        mailbox.add(table, numpy.array([0.0]), numpy.array([[2.0]]), clear=True)
+        mailbox.add(table, numpy.array([1.0]), numpy.array([[3.0]]))
+        header, arrays = unpack(mailbox.take()[0])
+        self.assertEqual((header["clear"], arrays["times"].tolist(), arrays["values"].tolist()), (True, [0.0, 1.0], [2.0, 3.0]))
+        self.assertIsNone(mailbox.take()[0])
+
+
+class Requests(unittest.TestCase):
+    def test_what_is_allowed(self):
+        push = {"do": "push", "body": "boat", "force": [1, 0, -2.5], "torque": [0, 0, 0]}
+        self.assertEqual(read_request(json.dumps(push), LIVE, KNOWN), push)
+        for request in ({"do": "pause", "value": True}, {"do": "step"}, {"do": "reset"}, {"do": "seen"}, {"do": "show", "water": "surface"}):
+            self.assertEqual(read_request(json.dumps(request), LIVE, KNOWN), request)
+        self.assertEqual(read_request('{"do": "frame", "time": 1, "water": "particles"}', REPLAY, KNOWN)["time"], 1.0)
+
+    def test_all_else_is_refused_in_a_sentence(self):
+        push = '{"do": "push", "body": "boat", "force": %s, "torque": [0, 0, 0]}'
+        bad = {
+            b'{"do": "step"}': "text",
+            "": "JSON",
+            "{": "JSON",
+            "[" * 3000: "JSON",
+            "[]": "object",
+            '"step"': "object",
+            "{}": "'do'",
+            '{"do": ["step"]}': "'do'",
+            '{"do": "save"}': "'do'",
+            '{"do": "frame", "time": 0, "water": "particles"}': "'do'",
+            '{"do": "step", "more": 1}': "no other",
+            '{"do": "step", "do": "reset"}': "once",
+            '{"do": "pause"}': "keys",
+            '{"do": "pause", "value": 1}': "true or false",
+            '{"do": "show", "water": "tea"}': "particles, surface",
+            '{"do": "show", "water": ["surface"]}': "particles, surface",
+            push % "[1, 2]": "three",
+            push % '"much"': "three",
+            push % "[1, 2, NaN]": "no number",
+            push % "[1, 2, 1e999]": "number from",
+            push % "[1, 2, true]": "number from",
+            push % '[1, 2, "3"]': "number from",
+            push.replace("boat", "tank") % "[1, 2, 3]": "boat",
+            '{"do": "step", "x": "%s"}' % ("a" * 5000): "4096",
+        }
+        for text, word in bad.items():
+            with self.assertRaises(Refused, msg=str(text)[:80]) as raised:
+                read_request(text, LIVE, KNOWN)
+            self.assertIn(word, str(raised.exception), str(text)[:80])
+        with self.assertRaises(Refused):
+            read_request('{"do": "frame", "time": -1, "water": "particles"}', REPLAY, KNOWN)
+
+    def test_only_pages_of_this_server_may_ask(self):
+        names = {"localhost", "127.0.0.1", "::1"}
+        for origin, host in (("http://localhost:8780", "localhost:8780"), ("http://127.0.0.1:1", "127.0.0.1:1"), ("http://[::1]:80", "[::1]:80"), ("http://LOCALHOST", "localhost")):
+            self.assertTrue(origin_is_ours(origin, host, names), origin)
+        for origin, host in (
+            (None, "localhost:8780"),
+            ("", "localhost:8780"),
+            ("null", "localhost:8780"),
+            ("http://localhost:8781", "localhost:8780"),
+            ("https://localhost:8780", "localhost:8780"),
+            ("http://elsewhere.org", "localhost:8780"),
+            ("http://localhost:8780.elsewhere.org", "localhost:8780"),
+            ("http://elsewhere.org:8780", "elsewhere.org:8780"),  # whose name leads here
+            ("http://localhost:8780", None),
+        ):
+            self.assertFalse(origin_is_ours(origin, host, names), "%s %s" % (origin, host))
+
+
+TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]
+
+
+class Drawings(unittest.TestCase):
+    def test_meshes(self):
+        data = b"solid in name only".ljust(80) + struct.pack("<I12fH", 1, 0, 0, 1, *sum(TRIANGLE, []), 0)
+        self.assertEqual(read_stl(data).tolist(), TRIANGLE)
+        text = "solid a\nfacet normal 0 0 1\nouter loop\n%s\nendloop\nendfacet\nendsolid" % "\n".join("vertex %g %g %g" % tuple(row) for row in TRIANGLE)
+        self.assertEqual(read_stl(text.encode()).tolist(), TRIANGLE)
+        square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 -1//4\n"
+        self.assertEqual(read_obj(square).tolist(), [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]])
+        for reader, bad in ((read_stl, b""), (read_stl, data[:-1]), (read_obj, b"v 0 0\nf 1 2 3\n")):
+            with self.assertRaises((ValueError, IndexError)):
+                reader(bad)
+
+    def test_only_files_of_packages(self):
+        self.assertEqual(triangles_of("package://wavetank/meshes/sphere.stl").shape[1], 3)
+        for uri in ("file:///etc/passwd", "/etc/passwd", "package://wavetank/../../etc/a.stl", "package://no_such_package/a.stl", "package://wavetank/package.xml"):
+            self.assertIsNone(triangles_of(uri), uri)
+
+    def test_markers_come_and_go(self):
+        drawing = Drawing()
+        colour, zero = {part: 0.5 for part in "rgba"}, {axis: 0.0 for axis in "xyzw"}
+        marker = {
+            "ns": "bodies", "id": numpy.int32(3), "type": numpy.int32(10), "action": numpy.int32(0), "header": {"frame_id": "tank/bodies/boat"}, "color": colour, "text": "",
+            "pose": {"position": zero, "orientation": zero}, "scale": zero, "points": [], "mesh_resource": "package://wavetank/meshes/sphere.stl",
+        }  # fmt: skip
+        erase = dict(marker, action=numpy.int32(3))
+        self.assertEqual(drawing.follow({"markers": [erase, marker, dict(marker, id=numpy.int32(4), type=numpy.int32(2))]}), "drawing")
+        header, arrays = unpack(drawing.packet())
+        self.assertEqual([(part["number"], part["body"]) for part in header["parts"]], [(3, "boat"), (4, "boat")])
+        self.assertEqual(len(arrays[header["parts"][0]["points"]]) % 9, 0)
+        for n in (7, 8, 8):  # a mooring's line, again and again
+            self.assertEqual(drawing.follow({"markers": [dict(marker, id=numpy.int32(n), ns="moorings", type=numpy.int32(4))]}), "lines")
+        self.assertEqual([part["number"] for part in unpack(drawing.packet("lines"))[0]["parts"]], [7, 8])
+        drawing.follow({"markers": [dict(marker, id=numpy.int32(7), ns="moorings", action=numpy.int32(2))]})
+        self.assertEqual([part["number"] for part in unpack(drawing.packet("lines"))[0]["parts"]], [8])
+        self.assertEqual(len(unpack(drawing.packet())[0]["parts"]), 2)
+        drawing.follow({"markers": [erase, marker]})
+        self.assertEqual(len(unpack(drawing.packet())[0]["parts"]), 1)
+        self.assertEqual(unpack(drawing.packet("lines"))[0]["parts"], [])
+
+
+def box_marker(group, frame, low, high, colour):
+    corners = [[(high if bit >> axis & 1 else low)[axis] for axis in range(3)] for bit in range(8)]
+    faces = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
+    marker = Marker(ns=group, type=Marker.TRIANGLE_LIST)
+    marker.header.frame_id = frame
+    marker.pose.orientation.w = marker.scale.x = marker.scale.y = marker.scale.z = 1.0
+    marker.color.r, marker.color.g, marker.color.b, marker.color.a = colour
+    for a, b, c, d in faces:
+        marker.points += [Point(*corners[n]) for n in (a, b, c, a, c, d)]
+    return marker
+
+
+def surface_markers(stamp, ahead):
+    """A box of water, and two drops over it; at the start neither."""
+    surface = box_marker("surface", "tank", (ahead, 0, 0), (ahead + 1, 0.6, 0.52), (0.25, 0.55, 0.85, 1))
+    spray = Marker(ns="spray", type=Marker.POINTS, points=[Point(ahead, 0.3, 0.5), Point(ahead + 0.1, 0.3, 0.5)])
+    spray.scale.x = 0.02
+    for marker in (surface, spray):
+        marker.header.stamp = stamp
+        if ahead == 0:
+            marker.action, marker.points = Marker.DELETE, []
+    return surface, spray
+
+
+def write_bag(path, clouds=True):
+    """Water of 1 × 0.6 × 0.52 m that moves ahead in a tank of 2 m, a body that rises out of it, a probe."""
+    with rosbag.Bag(path, "w") as bag:
+        start = rospy.Time(0, 1)
+        text = 'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
+        bag.write("/wavetank/case", String(text), start)
+        shapes = [
+            box_marker("tank", "tank", (0, 0, 0), (2, 0.6, 0.6), (0.5, 0.7, 0.8, 0.12)),
+            box_marker("bodies", "tank/bodies/boat", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1), (0.95, 0.6, 0.15, 1.0)),
+        ]
+        bag.write("/wavetank/markers", MarkerArray(shapes), start)
+        line = Marker(ns="moorings", type=Marker.LINE_STRIP, points=[Point(0, 0, 0), Point(1, 0, 0.5)])
+        line.header.stamp = rospy.Time.from_sec(0.5)
+        line.pose.orientation.w = 1.0
+        bag.write("/wavetank/markers", MarkerArray([line]), line.header.stamp)
+        lattice = numpy.stack(numpy.meshgrid(numpy.arange(25), numpy.arange(15), numpy.arange(13), indexing="ij"), axis=-1).reshape(-1, 3) * 0.04 + 0.02
+        for n in range(201):
+            stamp = rospy.Time.from_sec(n / 200)
+            probes = ProbeArray(names=["P1"], positions=[Point()], pressures=[PRESSURE if n == 200 else 10.0 * n])
+            probes.header.stamp = stamp
+            bag.write("/wavetank/probes", probes, stamp if n else start)
+            odometry = Odometry()
+            odometry.header.stamp = stamp
+            odometry.pose.pose.position.x, odometry.pose.pose.position.z, odometry.pose.pose.orientation.w = 1.5, n / 200, 1.0
+            bag.write("/wavetank/bodies/boat/odom", odometry, stamp if n else start)
+            if clouds and n % 100 == 0:
+                for marker in surface_markers(stamp, n / 200):
+                    bag.write("/wavetank/surface_mesh", marker, stamp if n else start)
+            if clouds and n % 40 == 0:
+                points = numpy.zeros((len(lattice), 6), "<f4")
+                points[:, :3] = lattice + [n / 200, 0, 0]
+                points[:, 3] = 0.1 + 0.5 * lattice[:, 2]
+                points[::40, 3] = 2.0  # some are fast, so that the others have the colours of slow water
+                fields = [PointField(name, 4 * place, PointField.FLOAT32, 1) for place, name in enumerate(("x", "y", "z", "vx", "vy", "vz"))]
+                cloud = PointCloud2(height=1, width=len(points), fields=fields, point_step=24, row_step=24 * len(points), data=points.tobytes())
+                cloud.header.stamp = stamp
+                bag.write("/wavetank/free_surface", cloud, stamp if n else start)
+
+
+class WithBag(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="wavetank_test_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.bag = os.path.join(folder.name, "made.bag")
+        write_bag(cls.bag)
+
+    def refused(self, *arguments):
+        done = subprocess.run([sys.executable, WEB, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        return done.stderr
+
+
+class Messages(WithBag):
+    def test_messages_one_by_one(self):
+        recording = Recording(self.bag)
+        drawings = recording.stream("markers", "visualization_msgs/MarkerArray", header_at=4)
+        self.assertEqual(drawings.stamps.tolist(), [0, 500000000])
+        self.assertEqual([marker["ns"] for marker in drawings.read(1)["markers"]], ["moorings"])
+
+
+@unittest.skipIf(NO_SERVER, NO_SERVER)
+class Server(WithBag):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.process, cls.url = start_server(cls.bag, "--clients", "2")
+        cls.addClassCleanup(end, cls.process)
+        cls.host = cls.url[len("http://") : -1]
+
+    def connect(self, origin=None):
+        from tornado.httpclient import HTTPRequest
+        from tornado.websocket import websocket_connect
+
+        return websocket_connect(HTTPRequest("ws://%s/socket" % self.host, headers={"Origin": origin or self.url[:-1]}))
+
+    @staticmethod
+    async def next_of(connection, kind):
+        while True:
+            packet = await asyncio.wait_for(connection.read_message(), 10)
+            if packet is None:
+                raise AssertionError("closed before a %s came" % kind)
+            header, arrays = unpack(packet) if isinstance(packet, bytes) else (json.loads(packet), {})
+            if header["kind"] not in ("answer", "series"):
+                await connection.write_message('{"do": "seen"}')
+            if header["kind"] == kind:
+                return header, arrays
+
+    def test_pictures_of_a_time(self):
+        async def talk():
+            connection = await self.connect()
+            hello, _ = await self.next_of(connection, "hello")
+            self.assertEqual((hello["waters"], hello["spacing"], len(hello["times"])), (["free_surface", "surface"], 0.04, 7))
+            series, arrays = await self.next_of(connection, "series")
+            self.assertEqual((series["name"], series["units"], arrays["values"][-1], len(arrays["times"])), ("probes", ["Pa"], PRESSURE, 201))
+            for time, expected in ((0, 0.0), (0.39, 0.2), (0.4, 0.4), (99, 1.0), (0.5, 0.4), (0.7, 0.6)):
+                await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "free_surface"}))
+                cloud, arrays = await self.next_of(connection, "cloud")
+                self.assertEqual((cloud["time"], len(arrays["points"])), (expected, 4 * 4875))
+                numpy.testing.assert_allclose(cloud["poses"]["boat"], [1.5, 0, expected, 0, 0, 0, 1])
+            lines, _ = await self.next_of(connection, "lines")
+            self.assertEqual(lines["parts"][0]["group"], "moorings")
+            for time, expected, corners, drops in ((0.4, 0.0, 0, 0), (0.6, 0.5, 36, 2)):
+                await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "surface"}))
+                surface, arrays = await self.next_of(connection, "surface")
+                self.assertEqual((surface["time"], len(arrays["corners"]), len(arrays["points"])), (expected, corners, 4 * 8 if corners else 0))
+                spray, arrays = await self.next_of(connection, "spray")
+                self.assertEqual((len(arrays["points"]), surface["poses"].keys()), (3 * drops, {"boat"}))
+            connection.close()
+
+        asyncio.run(talk())
+
+    def test_what_is_not_allowed_gets_an_answer_and_the_next_is_heard(self):
+        async def talk():
+            connection = await self.connect()
+            for bad in ("{", '{"do": "push"}', b"\x00", '{"do": "frame", "time": 0, "water": "particles"}', "x" * 5000):
+                await connection.write_message(bad, binary=isinstance(bad, bytes))
+                answer, _ = await self.next_of(connection, "answer")
+                self.assertFalse(answer["ok"])
+                self.assertGreater(len(answer["text"]), 10)
+            await connection.write_message('{"do": "frame", "time": 0, "water": "free_surface"}')
+            self.assertTrue((await self.next_of(connection, "answer"))[0]["ok"])
+            connection.close()
+
+        asyncio.run(talk())
+
+    def test_a_foreign_page_is_not_let_in(self):
+        from tornado.httpclient import HTTPClientError
+
+        async def talk(origin):
+            connection = await self.connect(origin)
+            connection.close()
+
+        for origin in ("http://elsewhere.org", "null", "http://localhost:1"):
+            with self.assertRaises(HTTPClientError) as raised:
+                asyncio.run(talk(origin))
+            self.assertEqual(raised.exception.code, 403, origin)
+
+    def test_no_more_pages_than_allowed(self):
+        async def talk():
+            first, second, third = [await self.connect() for _ in range(3)]
+            await self.next_of(first, "hello")
+            await self.next_of(second, "hello")
+            self.assertIsNone(await asyncio.wait_for(third.read_message(), 10))
+            self.assertEqual(third.close_code, 1013)
+            self.assertIn("2 pages", third.close_reason)
+            first.close()
+            await asyncio.sleep(0.2)
+            fourth = await self.connect()
+            await self.next_of(fourth, "hello")
+            second.close()
+            fourth.close()
+            await asyncio.sleep(0.2)
+
+        asyncio.run(talk())
+
+    def test_files(self):
+        for name in ("", "page.js", "style.css", "library/three.js", "library/orbit.js", "library/dygraph.js", "library/dygraph.css"):
+            with urllib.request.urlopen(self.url + name) as answer:
+                self.assertGreater(len(answer.read()), 500)
+                self.assertIn("default-src 'self'", answer.headers["Content-Security-Policy"])
+        for name in ("../server.py", "%2e%2e/server.py", "library/..%2f..%2fpasswd", "library/jquery.js", "/etc/passwd"):
+            with self.assertRaises(urllib.error.HTTPError, msg=name) as raised:
+                urllib.request.urlopen(self.url + name)
+            self.assertIn(raised.exception.code, (403, 404), name)
+
+    def test_only_this_machine_is_listened_to(self):
+        with socket.socket() as outside:
+            outside.settimeout(2)
+            own = socket.gethostbyname(socket.gethostname())
+            if own.startswith("127."):
+                self.skipTest("this machine has no other address by its name")
+            self.assertNotEqual(outside.connect_ex((own, int(self.host.rpartition(":")[2]))), 0)
+
+    def test_what_is_wrong_is_one_sentence(self):
+        self.assertIn("is taken", self.refused(self.bag, "--port", self.host.rpartition(":")[2]))
+        self.assertIn("no address of this machine", self.refused(self.bag, "--port", "0", "--address", "203.0.113.1"))
+        self.assertIn("0 to 65535", self.refused(self.bag, "--port", "99999"))
+        self.assertIn("there is no bag", self.refused(self.bag + ".not", "--port", "0"))
+        dry = self.bag + ".dry.bag"
+        write_bag(dry, clouds=False)
+        self.assertIn("no point clouds: write it with wavetank_run --clouds", self.refused(dry, "--port", "0"))
+
+    def test_ends_cleanly_with_a_page_open(self):
+        process, url = start_server(self.bag)
+        self.addCleanup(end, process)
+
+        async def talk():
+            from tornado.httpclient import HTTPRequest
+            from tornado.websocket import websocket_connect
+
+            connection = await websocket_connect(HTTPRequest(url.replace("http", "ws") + "socket", headers={"Origin": url[:-1]}))
+            await self.next_of(connection, "hello")
+            process.terminate()
+            while await asyncio.wait_for(connection.read_message(), 10) is not None:
+                pass
+            return connection.close_code
+
+        self.assertEqual(asyncio.run(talk()), 1001)
+        process.communicate(timeout=10)
+        self.assertEqual(process.returncode, 0)
+
+
+class MissingPackages(WithBag):
+    def test_the_package_is_named(self):
+        code = "import sys; sys.modules['tornado'] = None; import wavetank.web.libraries as l; l.JAVASCRIPT = '/no'\nfrom wavetank.web import command\nfrom wavetank import program\nsys.exit(program.run('web', command.main, sys.argv[1:]))"
+        done = subprocess.run([sys.executable, "-c", code, self.bag], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("apt-get install libjs-dygraphs libjs-three python3-tornado", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+
+@unittest.skipIf(NO_SERVER or MISSING, NO_SERVER or MISSING)
+class InTheBrowser(WithBag):
+    def test_a_bag(self):
+        process, url = start_server(self.bag)
+        self.addCleanup(end, process)
+        browser = Browser()
+        self.addCleanup(browser.quit)
+        browser.driver.get(url)
+        browser.wait("window.wavetank && wavetank.received > 0 && !wavetank.player.playing && wavetank.time === 1", 30)
+        self.assertEqual(browser.get("document.getElementById('title').textContent"), "A <b>made</b> bag")
+        self.assertEqual(browser.get("[...wavetank.plots.all.values()][0].rows.slice(-1)[0]"), [1.0, PRESSURE])
+        browser.wait("document.querySelector('.plot .values').textContent.includes('1235')")
+        self.assertGreater(browser.water_share(), 0.05)
+        self.assertEqual(browser.get("wavetank.view.drawn.get('boat').position.toArray()"), [1.5, 0, 1])
+        browser.driver.execute_script("const water = document.getElementById('water'); water.value = 'surface'; water.dispatchEvent(new Event('change'))")
+        browser.wait("wavetank.what === '12 triangles' && wavetank.view.surface.visible")
+        self.assertGreater(browser.water_share(), 0.05)
+        browser.driver.execute_script("wavetank.view.hideWater()")
+        self.assertLess(browser.water_share(), 0.02)
+        browser.press("reset")
+        browser.wait("wavetank.time < 1e-8 && wavetank.view.drawn.get('boat').position.z === 0")
+        browser.driver.execute_script("const water = document.getElementById('water'); water.value = 'free_surface'; water.dispatchEvent(new Event('change'))")
+        browser.press("step")
+        browser.wait("wavetank.time === 0.2")
+        self.assertEqual(browser.get("document.querySelector('.plot .values').textContent.trim()").split()[0], "P1")
+        self.assertTrue(math.isclose(browser.get("[...wavetank.plots.all.values()][0].row()[1]"), 400.0))
+        self.assertEqual(browser.errors(), [])
+        browser.quit()
+        self.assertEqual(end(process), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
