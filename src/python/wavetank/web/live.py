@@ -12,13 +12,13 @@ from std_srvs.srv import SetBool, Trigger
 
 from wavetank.message_decoding import decode, read_definition, read_tree
 from wavetank.recording import cloud_of, matching, stamp_of
+from wavetank.scenery import CLOUDS, SURFACE
 from wavetank.web.drawing import Drawing, pose_numbers
 from wavetank.web.packets import cloud_packet, spray_packet, surface_packet
-from wavetank.web.replay import SURFACE, is_plotted, read_case, stamp_of_header
+from wavetank.web.replay import is_plotted, read_case, stamp_of_header
 from wavetank.web.requests import LIVE, Refused
 from wavetank.web.series import Series
 
-CLOUDS = ("particles", "free_surface")
 HISTORY = 4096  # samples of an instrument that a new client gets
 WAITING = 20000  # messages of a topic between two looks at them
 CLOUD_ROOM = 64 * 1024 * 1024  # bytes that are read at once, so that what waits is one cloud and no more
