@@ -1,6 +1,6 @@
 #include "wavetank/instruments/flow_sections.h"
 
-#include "filled.h"
+#include "wavetank/instruments/filled.h"
 
 namespace wavetank {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "filled.h"
+#include "wavetank/instruments/filled.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {

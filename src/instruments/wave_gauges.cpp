@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "filled.h"
+#include "wavetank/instruments/filled.h"
 
 namespace wavetank {
 namespace {

@@ -43,7 +43,8 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
   if (!options_.save.empty() && !options_.bag.empty() && whole(options_.save) == whole(options_.bag))
     throw Error("--bag and --save are both '" + options_.save + "'; give each a file of its own");
   if (!options_.bag.empty())
-    recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_, options_.clouds, options_.particles);
+    recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_,
+                                              RecordedPictures{options_.clouds, options_.particles, options_.surface});
   if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkRecorder>(options_.vtk, options_.vtk_rate, case_, vtk_view());
 }
 

@@ -11,6 +11,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/node/resources.h"
 #include "wavetank/scene/case_reader.h"
+#include "wavetank/surface/surface_finder.h"
 
 namespace wavetank {
 
@@ -189,6 +190,8 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   reader.read("snapshot_directory", setup.parameters.snapshot_directory);
   reader.read("bag", setup.parameters.bag);
   reader.read("bag_clouds", setup.parameters.bag_clouds);
+  reader.read("bag_surface", setup.parameters.bag_surface);
+  if (setup.parameters.bag_surface && !can_find_surface()) throw Error("parameter " + source + "/bag_surface: " + why_no_surface);
   reader.read("exit_at_end", setup.parameters.exit_at_end);
   reader.read("wait_for_subscribers", setup.parameters.wait_for_subscribers);
   reader.read("external_wrench_timeout", setup.parameters.external_wrench_timeout);

@@ -13,12 +13,19 @@ constexpr double rounding = 1e-9;       ///< s, below any instrument's period
 
 }  // namespace
 
-RunRecorder::RunRecorder(const std::string& bag, const std::string& topic_prefix, const Case& scene, const StampClock& clock, bool clouds,
-                         bool particles)
-    : case_(scene), clock_(clock), bag_(bag, topic_prefix), clouds_(clouds), particles_(particles) {}
+RunRecorder::RunRecorder(const std::string& bag, const std::string& topic_prefix, const Case& scene, const StampClock& clock,
+                         RecordedPictures pictures)
+    : case_(scene), clock_(clock), bag_(bag, topic_prefix), pictures_(pictures) {
+  if (pictures_.surface)
+    drawer_ = std::make_unique<SurfaceDrawer>([this](const WaterSurface& surface) {
+      SurfaceMessages messages = surface_messages(surface, case_.publishing.max_points, case_.publishing.world_frame, clock_);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      found_.push_back(std::move(messages));
+    });
+}
 
 void RunRecorder::start(const Simulation& simulation, const std::vector<BodyFrame>& frames) {
-  next_status_ = next_cloud_ = simulation.state().time;
+  next_status_ = next_cloud_ = next_surface_ = simulation.state().time;
   const ros::Time stamp = clock_.at(simulation.state().time);
   bag_.write_latched("case", stamp, case_message(simulation.scene(), simulation.device_description()));
   bag_.write_latched("markers", stamp, markers(case_, simulation.layout(), frames, false));
@@ -36,18 +43,50 @@ void RunRecorder::record(const Simulation& simulation, const std::vector<EnergyS
     solver.time = sample.time;
     bag_.write("status", clock_.at(sample.time), status_message(case_, solver, sample, run, clock_));
   }
-  if (!(clouds_ || particles_) || time < next_cloud_ - rounding) return;
+  if ((pictures_.clouds || pictures_.particles) && time >= next_cloud_ - rounding) record_cloud(simulation);
+  if (!pictures_.surface) return;
+  if (time >= next_surface_ - rounding) record_surface(simulation);
+  write_surfaces();
+}
+
+void RunRecorder::record_cloud(const Simulation& simulation) {
   next_cloud_ += 1.0 / case_.publishing.cloud_bag_rate;
   const ParticleCloud all = simulation.particles();
   const auto write_cloud = [&](const char* topic, const ParticleCloud& cloud, CloudFields fields) {
     const auto message = cloud_message(cloud, fields, case_.publishing.max_points, case_.publishing.world_frame, clock_);
     bag_.write(topic, message.header.stamp, message);
   };
-  if (clouds_) write_cloud("free_surface", surface_of(all), CloudFields::surface);
-  if (particles_) write_cloud("particles", all, CloudFields::all);
+  if (pictures_.clouds) write_cloud("free_surface", surface_of(all), CloudFields::surface);
+  if (pictures_.particles) write_cloud("particles", all, CloudFields::all);
+}
+
+void RunRecorder::record_surface(const Simulation& simulation) {
+  next_surface_ += 1.0 / case_.publishing.surface_bag_rate;
+  drawer_->draw(simulation);
+}
+
+void RunRecorder::write_surfaces() {
+  std::vector<SurfaceMessages> found;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    found.swap(found_);
+  }
+  for (const SurfaceMessages& each : found) {
+    bag_.write(SurfaceMessages::mesh_topic, each.surface.header.stamp, each.surface);
+    bag_.write(SurfaceMessages::mesh_topic, each.spray.header.stamp, each.spray);
+    bag_.write(SurfaceMessages::height_topic, each.heights.header.stamp, each.heights);
+  }
 }
 
 void RunRecorder::finish(const SolverState& solver, const EnergySample& energies, const RunState& run) {
+  if (drawer_) {
+    drawer_->wait();
+    try {
+      write_surfaces();
+    } catch (const BagError&) {  // a full disk has no room for the last one, but for the end of the bag
+      if (!bag_.is_open()) throw;
+    }
+  }
   bag_.write_last("status", clock_.at(solver.time), status_message(case_, solver, energies, run, clock_));
   bag_.finish();
 }

@@ -41,9 +41,11 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
   check_names(case_);
   const NodeParameters& parameters = setup_.parameters;
   if (!parameters.bag.empty())
-    recorder_ = std::make_unique<RunRecorder>(parameters.bag, private_.getNamespace(), case_, clock_, parameters.bag_clouds);
+    recorder_ = std::make_unique<RunRecorder>(parameters.bag, private_.getNamespace(), case_, clock_,
+                                              RecordedPictures{parameters.bag_clouds, false, parameters.bag_surface});
   advertise_topics();
   clouds_ = std::make_unique<CloudPublisher>(private_, case_.publishing, clock_);
+  if (can_find_surface()) surfaces_ = std::make_unique<SurfacePublisher>(private_, case_.publishing, clock_);
   diagnostics_.setHardwareID(case_.device);
   diagnostics_.add("solver", this, &TankNode::fill_diagnostics);
 
@@ -222,8 +224,9 @@ void TankNode::idle(const Simulation& simulation) {
   const double time = simulation.state().time;
   if (Clock::now() >= clock_due_) publish_clock(time);
   const bool took_cloud = clouds_->offer(simulation);
+  const bool took_surface = surfaces_ && surfaces_->offer(simulation);
   // A cloud is of any time, samples of poses are not; where the simulation stands, the cloud's would be too late to be placed in the world.
-  if (took_cloud && case_.tank.motion != Motion::fixed)
+  if ((took_cloud || took_surface) && case_.tank.motion != Motion::fixed)
     moving_transforms_->publish_between_samples(messages_->poses().transforms(present_poses(simulation.bodies(), time), clock_));
 }
 

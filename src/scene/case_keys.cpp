@@ -364,6 +364,11 @@ Section<PublishingCase> rates_section() {
               "Particle clouds on topics: of wall time, while someone listens.");
   section.key("cloud_bag", &PublishingCase::cloud_bag_rate, number(above_up_to(0, 1e6)), "Hz",
               "Particle clouds in a bag of `wavetank_run --clouds`: of simulated time.");
+  section.key(
+      "surface", &PublishingCase::surface_rate, number(above_up_to(0, 1e6)), "Hz",
+      "The water's surface on topics, at most: of wall time, while someone listens. Fewer where more would take over 3 % of the time.");
+  section.key("surface_bag", &PublishingCase::surface_bag_rate, number(above_up_to(0, 1e6)), "Hz",
+              "The water's surface in a bag of `wavetank_run --surface`: of simulated time.");
   return section;
 }
 
@@ -392,7 +397,7 @@ Section<Case> declare_case() {
   section.key("openings", &Case::openings, list_of(opening_section()), "", "Holes in walls, through which water comes in and leaves.");
   section.key("numerics", &Case::numerics, section_of(numerics_section()), "", "The method.");
   section.key("instruments", &Case::instruments, section_of(instruments_section()), "", "What is measured.");
-  section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds are published.");
+  section.key("rates", &Case::publishing, section_of(rates_section()), "", "How often clouds and the water's surface are published.");
   add_publishing_key(section, "max_points", &PublishingCase::max_points, whole_number(between(1, 1e9)), "",
                      "Of a published cloud; more are decimated.");
   add_publishing_key(section, "reference_pressure", &PublishingCase::reference_pressure, number({}), "Pa",

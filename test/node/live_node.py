@@ -12,11 +12,11 @@ from diagnostic_msgs.msg import DiagnosticArray
 from ear import Ear
 from geometry_msgs.msg import WrenchStamped
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import FluidPressure, PointCloud2
+from sensor_msgs.msg import FluidPressure, Image, PointCloud2
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import ProbeArray, SolverStatus, WaveGaugeArray
 
 HYDROSTATIC = 1000.0 * 9.81 * 0.15  # Pa, 0.15 m under the surface
@@ -31,6 +31,8 @@ TOPICS = {
     "/wavetank/bodies/step/wrench/viscous": WrenchStamped,
     "/wavetank/particles": PointCloud2,
     "/wavetank/free_surface": PointCloud2,
+    "/wavetank/surface_mesh": Marker,
+    "/wavetank/height_map": Image,
     "/wavetank/status": SolverStatus,
     "/wavetank/markers": MarkerArray,
     "/wavetank/case": String,
@@ -101,6 +103,18 @@ class LiveNode(unittest.TestCase):
             self.assertEqual(cloud.point_step, step)
             self.assertGreater(cloud.width, 0)
         self.assertEqual(self.ear.all("/wavetank/particles")[-1].width, self.ear.all("/wavetank/status")[-1].particles)
+
+    def test_06_surface_of_the_water(self):
+        types = dict(rospy.get_published_topics("/wavetank"))
+        if "/wavetank/surface_mesh" not in types:
+            self.skipTest("OpenVDB was not installed when this was built: scripts/install --surface")
+        self.ear.wait(lambda: self.ear.all("/wavetank/surface_mesh") and self.ear.all("/wavetank/height_map"), "the surface of the water")
+        surface = next(marker for marker in self.ear.all("/wavetank/surface_mesh") if marker.ns == "surface")
+        self.assertEqual((surface.header.frame_id, surface.type), ("tank", Marker.TRIANGLE_LIST))
+        self.assertEqual(len(surface.points) % 3, 0)
+        self.assertAlmostEqual(max(point.z for point in surface.points), 0.2, delta=0.02)
+        heights = self.ear.all("/wavetank/height_map")[-1]
+        self.assertEqual((heights.encoding, heights.height, heights.width, len(heights.data)), ("32FC1", 20, 1, 80))
 
     def test_07_transforms_markers_and_case(self):
         frames = {t.child_frame_id: t.header.frame_id for message in self.ear.all("/tf_static") for t in message.transforms}

@@ -4,6 +4,7 @@
 
 #include "wavetank/common/error.h"
 #include "wavetank/node/progress.h"
+#include "wavetank/surface/surface_finder.h"
 
 namespace wavetank {
 
@@ -35,6 +36,13 @@ TEST(RunOptions, ReadsEverything) {
   EXPECT_EQ(options.overrides[3].value, "\"0:1\"");
 }
 
+TEST(RunOptions, RefuseASurfaceThatCannotBeFound) {
+  if (can_find_surface())
+    EXPECT_TRUE(read({"a.yaml", "--bag", "b.bag", "--surface"}).surface);
+  else
+    EXPECT_THROW(read({"a.yaml", "--bag", "b.bag", "--surface"}), Error);
+}
+
 TEST(RunOptions, DoNotSwallowTheCaseAfterSet) {
   const RunOptions options = read({"--set", "duration=1", "--bag", "b.bag", "a.yaml"});
   EXPECT_EQ(options.case_file, "a.yaml");
@@ -54,6 +62,7 @@ TEST(RunOptions, RefuseWhatMakesNoSense) {
   EXPECT_THROW(read({"a.yaml", "--particles"}), Error);
   EXPECT_THROW(read({"a.yaml", "--vtk-rate", "10"}), Error);
   EXPECT_THROW(read({"a.yaml", "--vtk", "out", "--vtk-rate", "nan"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--surface"}), Error);
   EXPECT_THROW(read({"a.yaml", "b.yaml"}), Error);
   EXPECT_THROW(read({"a.yaml", "--bag"}), Error);
 }

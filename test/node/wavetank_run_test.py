@@ -13,7 +13,9 @@ import subprocess
 import time
 import unittest
 
+import numpy
 import rosbag
+from visualization_msgs.msg import Marker
 
 import program_runner
 from program_runner import PACKAGE, ProgramTest, interrupt, read_line_with
@@ -62,7 +64,7 @@ class Information(ProgramTest):
     def test_help_names_every_option_and_exit_code(self):
         result = self.run_program("--help")
         self.assert_runs(result)
-        for word in ["--bag", "--clouds", "--duration", "--set", "--device", "--restore", "--save", "--profile", "--check", "--list-devices", "Exit code"]:
+        for word in ["--bag", "--clouds", "--surface", "--duration", "--set", "--device", "--restore", "--save", "--profile", "--check", "--list-devices", "Exit code"]:
             self.assertIn(word, result.stdout)
 
     def test_version(self):
@@ -134,6 +136,30 @@ class Bags(ProgramTest):
         self.assertEqual(first["/wavetank/probes/P1"].header.frame_id, "tank/probes/P1")
         self.assertEqual(first["/wavetank/bodies/step/wrench"].header.frame_id, "tank/bodies/step")
         self.assertIn("A small tank at rest", first["/wavetank/case"].data)
+
+    def test_holds_the_surface_of_the_water(self):
+        result = self.run_program(self.case(), "--bag", "out.bag", "--surface", "--set", "rates/surface_bag=50")
+        if "OpenVDB" in result.stderr:
+            self.assert_refused(result, "scripts/install --surface")
+            self.assertEqual(self.files(), ["case.yaml"])
+            return
+        self.assert_runs(result)
+        with rosbag.Bag(self.path("out.bag")) as bag:
+            markers = [message for _, message, _ in bag.read_messages("/wavetank/surface_mesh")]
+            maps = [message for _, message, _ in bag.read_messages("/wavetank/height_map")]
+        surfaces = [marker for marker in markers if marker.ns == "surface"]
+        self.assertEqual(sorted({marker.ns for marker in markers}), ["spray", "surface"])
+        self.assertEqual(len(markers), 2 * len(surfaces))
+        self.assertEqual([round(marker.header.stamp.to_sec() / 0.02) for marker in surfaces], [0, 1, 2])
+        self.assertEqual([image.header.stamp for image in maps], [marker.header.stamp for marker in surfaces])
+        for marker in surfaces:
+            self.assertEqual((marker.header.frame_id, marker.type, marker.action), ("tank", Marker.TRIANGLE_LIST, Marker.ADD))
+            corners = numpy.array([(point.x, point.y, point.z) for point in marker.points]).reshape(-1, 3, 3)
+            volume = numpy.linalg.det(corners).sum() / 6
+            self.assertAlmostEqual(volume, (0.4 * 0.2 - 0.08 * 0.08) * 0.02, delta=0.03 * 0.08 * 0.02)
+        self.assertEqual((maps[0].encoding, maps[0].width, maps[0].height), ("32FC1", 1, 20))
+        heights = numpy.frombuffer(maps[0].data, numpy.float32)
+        self.assertLess(abs(heights - 0.2).max(), 0.002)
 
     def test_holds_the_poses_of_what_moves(self):
         case = os.path.join(PACKAGE, "test", "node", "floating_box.yaml")
@@ -368,6 +394,7 @@ class Refusals(ProgramTest):
         self.assert_refused(self.run_program(self.case(), "--nonsense"), "--nonsense")
         self.assert_refused(self.run_program(self.case(), "--set", "duration"), "duration")
         self.assert_refused(self.run_program(self.case(), "--clouds"), "--bag")
+        self.assert_refused(self.run_program(self.case(), "--surface"), "--bag")
         self.assert_refused(self.run_program(self.case(), "--bag", "out", "--save", "./out"), "--bag and --save")
         self.assert_refused(self.run_program("no_such_case.yaml"), "no_such_case.yaml")
 

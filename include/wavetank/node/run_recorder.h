@@ -1,22 +1,32 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "wavetank/node/bag_writer.h"
 #include "wavetank/node/messages.h"
+#include "wavetank/node/surface_drawer.h"
+#include "wavetank/node/surface_messages.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
 
+/// What else than samples is recorded.
+struct RecordedPictures {
+  bool clouds = false;     ///< the free surface's particles
+  bool particles = false;  ///< all particles
+  bool surface = false;    ///< the water's surface as a mesh and a height map
+};
+
 /// Records a run into a bag, as wavetank_run and the node both do: what holds for all of it first, then samples, the status every 10 ms of
-/// simulated time and clouds at publishing/cloud_bag_rate, and its end.
+/// simulated time, clouds at publishing/cloud_bag_rate, the water's surface at publishing/surface_bag_rate, and its end.
 class RunRecorder {
  public:
-  /// `bag`: the file; `topic_prefix`: as BagWriter has it; `clouds`: the free surface is wanted; `particles`: all particles
-  /// are. Throws as BagWriter.
-  RunRecorder(const std::string& bag, const std::string& topic_prefix, const Case& scene, const StampClock& clock, bool clouds,
-              bool particles = false);
+  /// `bag`: the file; `topic_prefix`: as BagWriter has it. Throws as BagWriter.
+  RunRecorder(const std::string& bag, const std::string& topic_prefix, const Case& scene, const StampClock& clock,
+              RecordedPictures pictures);
 
   /// The case, the markers, whose meshes are triangles so that the bag has them, and the transforms that stand still, at the simulation's
   /// present time.
@@ -26,10 +36,11 @@ class RunRecorder {
   void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
     bag_.write(topic, stamp, message);
   }
-  /// The status at those samples of the energies that it is due at, and the clouds if they are due. `run`: of this moment.
+  /// The status at those samples of the energies that it is due at, and the pictures that are due; a surface is
+  /// written when it is found. `run`: of this moment.
   void record(const Simulation& simulation, const std::vector<EnergySample>& energies, const RunState& run);
   /// The simulation is back at time 0.
-  void restart() { next_status_ = next_cloud_ = 0; }
+  void restart() { next_status_ = next_cloud_ = next_surface_ = 0; }
   /// The last status, and the bag gets its name.
   void finish(const SolverState& solver, const EnergySample& energies, const RunState& run);
 
@@ -40,8 +51,15 @@ class RunRecorder {
   const Case& case_;
   const StampClock& clock_;
   BagWriter bag_;
-  bool clouds_, particles_;
-  double next_status_ = 0, next_cloud_ = 0;  ///< s of simulated time
+  void record_cloud(const Simulation& simulation);
+  void record_surface(const Simulation& simulation);
+  void write_surfaces();
+
+  RecordedPictures pictures_;
+  double next_status_ = 0, next_cloud_ = 0, next_surface_ = 0;  ///< s of simulated time
+  std::mutex mutex_;
+  std::vector<SurfaceMessages> found_;     ///< surfaces that are not written yet
+  std::unique_ptr<SurfaceDrawer> drawer_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace wavetank

@@ -18,6 +18,7 @@
 #include "wavetank/node/parameters.h"
 #include "wavetank/node/run_recorder.h"
 #include "wavetank/node/solver_loop.h"
+#include "wavetank/node/surface_publisher.h"
 #include "wavetank/node/transform_publisher.h"
 
 namespace wavetank {
@@ -80,6 +81,7 @@ class TankNode {
   Clock::time_point subscribers_due_;  ///< when the first step is taken at the latest
   bool all_heard_ = false;
   std::unique_ptr<CloudPublisher> clouds_;
+  std::unique_ptr<SurfacePublisher> surfaces_;  ///< none where none can be found
 
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;

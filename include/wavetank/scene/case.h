@@ -521,6 +521,8 @@ struct InstrumentsCase {
 struct PublishingCase {
   double cloud_rate = 20.0;          ///< Hz of wall time, of clouds while someone listens
   double cloud_bag_rate = 50.0;      ///< Hz of simulated time, of clouds in a bag written by wavetank_run --clouds
+  double surface_rate = 10.0;        ///< Hz of wall time, at most, of the water's surface while someone listens
+  double surface_bag_rate = 20.0;    ///< Hz of simulated time, of the water's surface in a bag written by wavetank_run --surface
   int max_points = 50000;            ///< of a cloud; more are decimated
   double reference_pressure = 0.0;   ///< Pa, added to gauge pressure in sensor_msgs/FluidPressure
   std::string world_frame = "tank";  ///< tf frame of the case's coordinates

@@ -126,9 +126,13 @@ class Simulation {
 
   SolverState state() const;
   EnergySample energies() const;
-  ParticleCloud particles() const;     ///< all
-  ParticleCloud free_surface() const;  ///< those on the free surface
-  const Case& scene() const;           ///< the case, with its automatic values settled (sound speed, spacing, support)
+  ParticleCloud particles() const;              ///< all
+  ParticleCloud free_surface() const;           ///< those on the free surface
+  std::vector<Eigen::Vector3f> places() const;  ///< m, of all particles, in the case's coordinates
+  /// How much of what walls leave of the kernel about each place (m, in the case's coordinates) the water fills: 1 in it, 1/2 on its
+  /// surface, 0 in the air and well inside of walls.
+  std::vector<float> filling(const std::vector<Vector3d>& places) const;
+  const Case& scene() const;  ///< the case, with its automatic values settled (sound speed, spacing, support)
   const Layout& layout() const;
   std::string device_description() const;  ///< device, platform, driver, in one line
   std::string summary() const;             ///< several lines: spacing, h, c₀, bounds on Δt, particles, elements, memory, device

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "wavetank/surface/surface_finder.h"
+
+namespace wavetank {
+
+/// Finds surfaces of the water in a thread of its own. All members but the constructor and the destructor may be called by the simulation's
+/// thread alone.
+class SurfaceDrawer {
+ public:
+  /// `done`: called in the drawer's thread with each surface.
+  explicit SurfaceDrawer(std::function<void(const WaterSurface&)> done);
+  /// After the surface in the making.
+  ~SurfaceDrawer();
+  SurfaceDrawer(const SurfaceDrawer&) = delete;
+  SurfaceDrawer& operator=(const SurfaceDrawer&) = delete;
+
+  /// Takes what the simulation's surface is found from at present; while it has another one in the making it waits for that.
+  void draw(const Simulation& simulation);
+  bool is_idle() const;
+  /// Until it is idle.
+  void wait();
+  /// s of wall time that the last surface took, of the simulation's thread and of the drawer's together.
+  double seconds() const;
+
+ private:
+  void run();
+
+  std::function<void(const WaterSurface&)> done_;
+  std::unique_ptr<SurfaceFinder> finder_;  ///< made when it is first wanted
+  double looking_seconds_ = 0;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<WaterField> field_;
+  double finding_seconds_ = 0;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace wavetank

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <chrono>
+
+#include "wavetank/node/surface_drawer.h"
+#include "wavetank/node/surface_messages.h"
+
+namespace wavetank {
+
+/// Publishes ~surface_mesh and ~height_map while someone listens: at most at the case's rate of wall time, and so seldom that drawing them
+/// takes no more than 3 % of the time.
+class SurfacePublisher {
+ public:
+  SurfacePublisher(ros::NodeHandle& private_handle, const PublishingCase& publishing, const StampClock& clock);
+
+  /// To be called often by the solver's thread: has a surface drawn when one is due, and says whether it did.
+  bool offer(const Simulation& simulation);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void publish(const WaterSurface& surface) const;
+
+  PublishingCase publishing_;
+  const StampClock& clock_;
+  ros::Publisher mesh_, heights_;
+  Clock::time_point last_;
+  SurfaceDrawer drawer_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace wavetank

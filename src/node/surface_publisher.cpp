@@ -1,0 +1,36 @@
+#include "wavetank/node/surface_publisher.h"
+
+#include <algorithm>
+
+namespace wavetank {
+namespace {
+
+constexpr double most_of_the_time = 0.03;  ///< that drawing may take
+
+}  // namespace
+
+SurfacePublisher::SurfacePublisher(ros::NodeHandle& private_handle, const PublishingCase& publishing, const StampClock& clock)
+    : publishing_(publishing),
+      clock_(clock),
+      mesh_(private_handle.advertise<visualization_msgs::Marker>(SurfaceMessages::mesh_topic, 2)),
+      heights_(private_handle.advertise<sensor_msgs::Image>(SurfaceMessages::height_topic, 1)),
+      drawer_([this](const WaterSurface& surface) { publish(surface); }) {}
+
+bool SurfacePublisher::offer(const Simulation& simulation) {
+  if (mesh_.getNumSubscribers() == 0 && heights_.getNumSubscribers() == 0) return false;
+  if (!drawer_.is_idle()) return false;
+  const double pause = std::max(1.0 / publishing_.surface_rate, drawer_.seconds() / most_of_the_time);
+  if (Clock::now() - last_ < std::chrono::duration<double>(pause)) return false;
+  last_ = Clock::now();
+  drawer_.draw(simulation);
+  return true;
+}
+
+void SurfacePublisher::publish(const WaterSurface& surface) const {
+  const SurfaceMessages messages = surface_messages(surface, publishing_.max_points, publishing_.world_frame, clock_);
+  mesh_.publish(messages.surface);
+  mesh_.publish(messages.spray);
+  heights_.publish(messages.heights);
+}
+
+}  // namespace wavetank

@@ -1,0 +1,229 @@
+// The surface of the water as a mesh: closed, in its place, of the right volume; and what is beside it.
+#include "wavetank/surface/surface_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "../common/box_case.h"
+#include "../common/scratch_directory.h"
+
+namespace wavetank {
+namespace {
+
+class SurfaceFinderTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!can_find_surface()) GTEST_SKIP() << why_no_surface;
+  }
+};
+
+WaterSurface surface_of(const Simulation& simulation, std::size_t most_triangles = 75000) {
+  const SurfaceFinder finder(simulation, most_triangles);
+  return finder.find(finder.look_at(simulation));
+}
+
+/// By the divergence theorem; positive where triangles are anticlockwise seen from outside.
+double volume_of(const WaterSurface& surface) {
+  double volume = 0;
+  for (const std::array<int, 3>& t : surface.triangles) {
+    const Vector3d a = surface.vertices[t[0]].cast<double>(), b = surface.vertices[t[1]].cast<double>(),
+                   c = surface.vertices[t[2]].cast<double>();
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
+/// Every edge belongs to two triangles, which go along it in opposite directions.
+void expect_closed(const WaterSurface& surface) {
+  ASSERT_FALSE(surface.triangles.empty());
+  std::map<std::pair<int, int>, int> edges;
+  for (const std::array<int, 3>& t : surface.triangles)
+    for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+  std::size_t faulty = 0;
+  for (const auto& [edge, count] : edges) {
+    const auto back = edges.find({edge.second, edge.first});
+    if (count != 1 || back == edges.end() || back->second != 1) ++faulty;
+  }
+  EXPECT_EQ(faulty, 0u) << "of " << edges.size() << " sides of triangles";
+}
+
+Case still_tank() {
+  Case scene = box_case(Vector3d(0.6, 0.4, 0.4), 0.2, 0.02);
+  scene.numerics.packing.iterations = 50;
+  return scene;
+}
+
+TEST_F(SurfaceFinderTest, still_tank_is_flat_and_closed) {
+  const double depth = 0.2, spacing = 0.02;
+  Simulation simulation(still_tank());
+  for (int step = 0; step < 20; ++step) simulation.advance();
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  const double cut_off = 0.25 * spacing * spacing * 4 * (0.6 + 0.4 + depth);  // of a cell at edges of the tank
+  EXPECT_NEAR(volume_of(surface), 0.6 * 0.4 * depth - cut_off, 0.01 * 0.6 * 0.4 * depth);
+  double least = 1, most = 0, outside = 0;
+  for (const Eigen::Vector3f& v : surface.vertices) {
+    const double beside = std::min({v.x() - 0.0, 0.6 - v.x(), v.y() - 0.0, 0.4 - v.y()});
+    outside = std::max({outside, -beside, -static_cast<double>(v.z())});
+    most = std::max<double>(most, v.z());  // also at walls, which the water does not climb
+    if (beside > 0.5 * spacing && v.z() > 0.5 * depth) least = std::min<double>(least, v.z());
+  }
+  std::printf("surface from %.5f to %.5f m; %zu triangles; volume %.5f of %.5f m3; %.2e m outside\n", least, most, surface.triangles.size(),
+              volume_of(surface), 0.6 * 0.4 * depth, outside);
+  EXPECT_NEAR(least, depth, 0.1 * spacing);
+  EXPECT_NEAR(most, depth, 0.1 * spacing);
+  EXPECT_LT(outside, 1e-3 * spacing);
+  EXPECT_TRUE(surface.spray.empty());
+}
+
+TEST_F(SurfaceFinderTest, height_map_has_the_level_and_no_water_where_there_is_none) {
+  Case scene = still_tank();
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.3, 0.4, 0.2)}};
+  scene.numerics.packing.iterations = 0;
+  const Simulation simulation(scene);
+  const HeightMap map = surface_of(simulation).heights;
+  ASSERT_EQ(map.rows, 30);
+  ASSERT_EQ(map.columns, 20);
+  EXPECT_DOUBLE_EQ(map.resolution, 0.02);
+  EXPECT_TRUE(map.first.isApprox(Vector3d(0.59, 0.39, 0), 1e-9)) << map.first.transpose();
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column) {
+      const double x = map.first.x() - row * map.resolution;
+      const float height = map.heights[row * map.columns + column];
+      if (x < 0.26) EXPECT_NEAR(height, 0.2, 0.1 * 0.02) << x;
+      if (x > 0.34) EXPECT_TRUE(std::isnan(height)) << x;
+    }
+}
+
+/// Columns of particles of a lattice that make a ball.
+Case ball_of_water(double radius, double spacing) {
+  const double middle = radius + 3 * spacing;
+  Case scene = box_case(Vector3d::Constant(2 * middle), 2 * middle, spacing);
+  scene.fluid.fill.clear();
+  const int most = static_cast<int>(radius / spacing) + 1;
+  const auto half_column = [&](int i, int j) {
+    const double beside = std::hypot(i + 0.5, j + 0.5) * spacing;
+    return beside < radius ? static_cast<int>(std::lround(std::sqrt(radius * radius - beside * beside) / spacing)) : 0;
+  };
+  for (int i = -most; i < most; ++i)
+    for (int j = -most; j < most;) {
+      const int half = half_column(i, j), first = j;
+      while (j < most && half_column(i, j) == half) ++j;  // columns of one height are one box
+      if (half == 0) continue;
+      const Vector3d least = Vector3d::Constant(middle) + spacing * Vector3d(i, first, -half);
+      scene.fluid.fill.push_back(Box{least, least + spacing * Vector3d(1, j - first, 2 * half)});
+    }
+  scene.gravity.setZero();
+  scene.fluid.sound_speed = 10;
+  scene.numerics.packing.iterations = 0;
+  return scene;
+}
+
+TEST_F(SurfaceFinderTest, ball_has_its_volume) {
+  const double spacing = 0.01, radius = 12 * spacing;
+  const Simulation simulation(ball_of_water(radius, spacing));
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  const double volume = static_cast<double>(simulation.state().particles) * std::pow(spacing, 3);
+  std::printf("volume %.6f of %.6f m3: %.2f %%\n", volume_of(surface), volume, 100 * (volume_of(surface) / volume - 1));
+  EXPECT_NEAR(volume_of(surface), volume, 0.01 * volume);
+}
+
+TEST_F(SurfaceFinderTest, floating_box_bears_no_skin) {
+  const double spacing = 0.025;
+  Case scene = box_case(Vector3d(0.6, 0.5, 0.5), 0.3, spacing);
+  BodyCase body;
+  body.name = "box";
+  const Box hull{Vector3d(0.2, 0.15, 0.25), Vector3d(0.4, 0.35, 0.4)};
+  body.shape = hull;
+  body.motion = Motion::free;
+  body.rigid.density = 400;
+  scene.bodies = {body};
+  scene.numerics.packing.iterations = 20;
+  Simulation simulation(scene);
+  for (int step = 0; step < 60; ++step) simulation.advance();
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  const RigidState state = simulation.bodies().state_in_tank(1);
+  double deepest = -1, highest = 0;
+  for (const Eigen::Vector3f& v : surface.vertices) {
+    const Vector3d given = state.orientation.conjugate() * (v.cast<double>() - state.position) + simulation.bodies().reference(1);
+    deepest = std::max(deepest, std::min((given - hull.min).minCoeff(), (hull.max - given).minCoeff()));
+    highest = std::max<double>(highest, v.z());
+  }
+  const double displaced = (0.3 - 0.25) * 0.2 * 0.2;
+  std::printf("deepest vertex in the hull %.4f, highest %.4f m; volume %.5f of %.5f m3\n", deepest, highest, volume_of(surface),
+              0.6 * 0.5 * 0.3 - displaced);
+  EXPECT_LT(deepest, 0.5 * spacing);
+  EXPECT_LT(highest, 0.3 + 1.5 * spacing) << "water hangs on the hull or a wall";
+  EXPECT_NEAR(volume_of(surface), 0.6 * 0.5 * 0.3 - displaced, 0.01 * 0.6 * 0.5 * 0.3);
+}
+
+TEST_F(SurfaceFinderTest, drop_of_one_particle_is_spray) {
+  Case scene = still_tank();
+  const Vector3d drop(0.3, 0.2, 0.32);
+  scene.fluid.fill.push_back(Box{drop, drop + Vector3d::Constant(0.02)});
+  scene.numerics.packing.iterations = 0;
+  const Simulation simulation(scene);
+  const WaterSurface surface = surface_of(simulation);
+  ASSERT_EQ(surface.spray.size(), 1u);
+  EXPECT_TRUE(surface.spray[0].isApprox(Eigen::Vector3f(0.31F, 0.21F, 0.33F), 1e-4F)) << surface.spray[0].transpose();
+  for (const Eigen::Vector3f& v : surface.vertices) ASSERT_LT(v.z(), 0.25F);
+}
+
+TEST_F(SurfaceFinderTest, two_dimensions_are_a_slab_of_one_spacing) {
+  const double spacing = 0.02;
+  Case scene = box_case(Vector3d(0.6, 0, 0.4), 0.2, spacing);
+  Simulation simulation(scene);
+  for (int step = 0; step < 20; ++step) simulation.advance();
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  std::printf("volume %.6f of %.6f m3\n", volume_of(surface), 0.6 * 0.2 * spacing);
+  EXPECT_NEAR(volume_of(surface), 0.6 * 0.2 * spacing, 0.03 * 0.6 * 0.2 * spacing);
+  for (const Eigen::Vector3f& v : surface.vertices) {
+    EXPECT_LE(std::abs(v.y()), 0.501 * spacing);
+    EXPECT_LE(v.z(), 0.2 + 0.1 * spacing);
+  }
+  EXPECT_EQ(surface.heights.columns, 1);
+  ASSERT_EQ(surface.heights.rows, 30);
+  for (std::size_t row = 1; row + 1 < surface.heights.heights.size(); ++row)  // beside a wall it is a quarter of a spacing lower
+    EXPECT_NEAR(surface.heights.heights[row], 0.2, 0.1 * spacing);
+}
+
+TEST_F(SurfaceFinderTest, many_triangles_are_made_fewer) {
+  const Simulation simulation(still_tank());
+  const WaterSurface fine = surface_of(simulation), flat = surface_of(simulation, fine.triangles.size() / 2),
+                     coarse = surface_of(simulation, 300);
+  EXPECT_LE(flat.triangles.size(), fine.triangles.size() / 2);
+  EXPECT_LE(coarse.triangles.size(), 300u);
+  expect_closed(flat);
+  expect_closed(coarse);
+  EXPECT_NEAR(volume_of(flat), volume_of(fine), 0.03 * volume_of(fine));  // the tank's edges are cut off
+  EXPECT_NEAR(volume_of(coarse), volume_of(fine), 0.15 * volume_of(fine));
+}
+
+TEST_F(SurfaceFinderTest, run_is_the_same_to_the_last_bit) {
+  const ScratchDirectory scratch;
+  const auto bits_after = [&](bool looked_at) {
+    Simulation simulation(still_tank());
+    std::optional<SurfaceFinder> finder;
+    if (looked_at) finder.emplace(simulation);
+    for (int step = 0; step < 6; ++step) {
+      if (finder) EXPECT_FALSE(finder->find(finder->look_at(simulation)).triangles.empty());
+      simulation.advance();
+    }
+    simulation.save(scratch.file("bits"));
+    std::ifstream stream(scratch.file("bits"), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  EXPECT_TRUE(bits_after(true) == bits_after(false));
+}
+
+}  // namespace
+}  // namespace wavetank
