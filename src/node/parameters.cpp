@@ -189,6 +189,7 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   reader.read("snapshot_directory", setup.parameters.snapshot_directory);
   reader.read("bag", setup.parameters.bag);
   reader.read("bag_clouds", setup.parameters.bag_clouds);
+  reader.read("paused", setup.parameters.paused);
   reader.read("exit_at_end", setup.parameters.exit_at_end);
   reader.read("wait_for_subscribers", setup.parameters.wait_for_subscribers);
   reader.read("external_wrench_timeout", setup.parameters.external_wrench_timeout);
