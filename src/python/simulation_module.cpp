@@ -125,6 +125,10 @@ class PythonSimulation {
       what();
     } catch (const Interrupted&) {
       throw py::error_already_set();
+    } catch (const Error&) {
+      // Another thread of the program can take Ctrl-C while a kernel is compiled: then that is why the compiler failed (HeldSignals).
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      throw;
     }
   }
 

@@ -221,7 +221,7 @@ class Spans(FlyingTest):
         self.assertIn("another thread", refusals[0])
 
     def test_are_ended_by_ctrl_c(self):
-        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer = threading.Timer(0.3, signal.pthread_kill, (threading.main_thread().ident, signal.SIGINT))
         timer.start()
         begin = time.monotonic()
         with self.assertRaises(KeyboardInterrupt):
