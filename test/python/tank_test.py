@@ -314,6 +314,16 @@ class Readings(TankTest):
             with self.assertRaises(KeyError):
                 tank.gauges["P1"]
 
+    def test_joints_are_commanded(self):
+        with wavetank.Tank(FLOATING_BOX) as tank:
+            shaft = tank.joints["shaft"]
+            shaft.command(0.5)  # rad/s
+            tank.advance(0.1)
+            self.assertAlmostEqual(shaft.velocity, 0.5, 4)
+            self.assertAlmostEqual(shaft.position, 0.05, delta=0.002)
+            self.assertAlmostEqual(tank.joints["fender"].position, 0.28, delta=0.01, msg="a spring's length")
+            self.assert_refused(["fender", "commanded"], tank.joints["fender"].command, 1.0)
+
     def test_openings_are_commanded(self):
         case = {
             **FLYING,
