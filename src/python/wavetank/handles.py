@@ -208,7 +208,7 @@ def control(name, mode, axis):
 
 
 class Menu:
-    """Pause, step and reset: on every handle, and on a small cube over the tank."""
+    """Pause, step and reset: on every handle, and on a small cube over a corner of the tank."""
 
     def __init__(self, server, tank):
         self.handler = MenuHandler()
@@ -244,7 +244,7 @@ class Menu:
         marker = InteractiveMarker(name="run", description="run", scale=3.0 * size)
         marker.header.frame_id = frame
         marker.pose = Pose()
-        marker.pose.position.x, marker.pose.position.y, _ = 0.5 * (low + high)
+        marker.pose.position.x, marker.pose.position.y = low[0], low[1]  # at a corner, where it is in nobody's way
         marker.pose.position.z = high[2] + 2.0 * size
         marker.pose.orientation.w = 1.0
         marker.controls.append(InteractiveMarkerControl(name="menu", interaction_mode=InteractiveMarkerControl.MENU, always_visible=True, markers=[cube]))
