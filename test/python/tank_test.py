@@ -328,9 +328,7 @@ class Readings(TankTest):
         case = {
             **FLYING,
             "bodies": [],
-            "openings": [
-                {"name": "hose", "kind": "inlet", "centre": [0, 0, 0.05], "normal": [1, 0, 0], "size": [0, 0.06], "command": {"greatest_rate": 1.0}}
-            ],
+            "openings": [{"name": "hose", "kind": "inlet", "centre": [0, 0, 0.05], "normal": [1, 0, 0], "size": [0, 0.06], "command": {"greatest_rate": 1.0}}],
         }
         with wavetank.Tank(case) as tank:
             tank.openings["hose"].command(0.012)

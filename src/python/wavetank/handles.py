@@ -75,9 +75,7 @@ class Spring:
 
     def __init__(self, inertia, gravity, greatest_force=None):
         self.mass = inertia.m
-        self.inertia = numpy.array(
-            [[inertia.ixx, inertia.ixy, inertia.ixz], [inertia.ixy, inertia.iyy, inertia.iyz], [inertia.ixz, inertia.iyz, inertia.izz]]
-        )
+        self.inertia = numpy.array([[inertia.ixx, inertia.ixy, inertia.ixz], [inertia.ixy, inertia.iyy, inertia.iyz], [inertia.ixz, inertia.iyz, inertia.izz]])
         self.greatest_force = greatest_force if greatest_force is not None else SHARE_OF_WEIGHT * self.mass * (gravity or 9.81)
         self.greatest_torque = self.greatest_force * float(numpy.sqrt(numpy.max(numpy.diag(self.inertia)) / self.mass))
 

@@ -291,7 +291,8 @@ class Tank:
 
     def take_samples(self):
         """Every sample of the instruments since it was last called, or since the start or a reset: a dictionary of wavetank.recording.Table by name, with the
-        names, columns and bits that wavetank.read_tables finds in the bag of the same run; "energies" in the place of "status". Until it is called samples are kept."""
+        names, columns and bits that wavetank.read_tables finds in the bag of the same run; "energies" in the place of "status". Until it is called samples are kept.
+        """
         kinds = self._simulation.take_samples()
         tables = {}
         for name, kind, columns, positions, frame in self._columns():
