@@ -97,6 +97,13 @@ add_test(NAME bench_wavetank_bench_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK
 add_test(NAME bench_wavetank_check_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK_CHECK=$<TARGET_FILE:wavetank_check>
   ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/bench/wavetank_check_test.py -v)
 
+# Of the extension for Python; where it is not built, the test says so and does nothing.
+if(WAVETANK_ROS)
+  add_test(NAME python_tank_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
+    WAVETANK_PYTHON=$<$<BOOL:${WAVETANK_PYTHON}>:ON> ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/python/tank_test.py -v)
+  list(APPEND program_tests python_tank_test)
+endif()
+
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)
   find_package(rostest REQUIRED)

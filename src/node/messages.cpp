@@ -242,6 +242,21 @@ SolverStatus status_message(const Case& checked, const SolverState& solver, cons
   return message;
 }
 
+geometry_msgs::InertiaStamped inertia_message(const MassProperties& properties, const BodyFrame& frame) {
+  geometry_msgs::InertiaStamped message;
+  message.header.frame_id = frame.name;
+  message.inertia.m = properties.mass;
+  message.inertia.com = vector_message(properties.centre - frame.origin);
+  const Eigen::Matrix3d& inertia = properties.inertia;
+  message.inertia.ixx = inertia(0, 0);
+  message.inertia.ixy = inertia(0, 1);
+  message.inertia.ixz = inertia(0, 2);
+  message.inertia.iyy = inertia(1, 1);
+  message.inertia.iyz = inertia(1, 2);
+  message.inertia.izz = inertia(2, 2);
+  return message;
+}
+
 std_msgs::String case_message(const Case& checked, const std::string& device) {
   std::string comment = device;
   std::replace(comment.begin(), comment.end(), '\n', ' ');

@@ -41,6 +41,8 @@ std::string mooring_topic(const std::string& body, const std::string& mooring) {
   return body_topic(body, "moorings/" + graph_name(mooring) + "/tension");
 }
 
+std::string inertia_topic(const std::string& body) { return body_topic(body, "inertia"); }
+
 std::string outside_wrench_topic(const std::string& body) { return body_topic(body, "external_wrench"); }
 
 std::string command_topic(const std::string& body) { return body_topic(body, "cmd_vel"); }

@@ -192,6 +192,7 @@ NodeSetup read_setup(const ros::NodeHandle& private_handle) {
   reader.read("bag_clouds", setup.parameters.bag_clouds);
   reader.read("bag_surface", setup.parameters.bag_surface);
   if (setup.parameters.bag_surface && !can_find_surface()) throw Error("parameter " + source + "/bag_surface: " + why_no_surface);
+  reader.read("paused", setup.parameters.paused);
   reader.read("exit_at_end", setup.parameters.exit_at_end);
   reader.read("wait_for_subscribers", setup.parameters.wait_for_subscribers);
   reader.read("external_wrench_timeout", setup.parameters.external_wrench_timeout);

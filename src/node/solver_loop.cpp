@@ -26,6 +26,7 @@ std::string seconds_text(double seconds) {
 
 SolverLoop::SolverLoop(Case checked, SimulationOptions options, LoopSettings settings, LoopHooks hooks)
     : case_(std::move(checked)), options_(std::move(options)), settings_(std::move(settings)), hooks_(std::move(hooks)) {
+  status_.paused = settings_.paused;
   thread_ = std::thread([this] { run(); });
 }
 
@@ -94,10 +95,10 @@ void SolverLoop::start() {
 void SolverLoop::loop() {
   while (!stopping_) {
     serve_requests();
-    bool paused;
+    answer_advance();
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      paused = status_.paused;
+      const bool paused = status_.paused && !advancing_;
       const bool finished = status_.solver.time >= case_.duration;
       status_.phase = finished ? LoopPhase::finished : paused ? LoopPhase::paused : LoopPhase::running;
       if (finished || paused) {
@@ -155,6 +156,7 @@ bool SolverLoop::wait_for_pace() {
 }
 
 void SolverLoop::fail(const std::string& why) {
+  cut_advance_short(why);
   std::string failure = why;
   if (status().has_started && !settings_.failure_snapshot.empty()) {
     try {
@@ -171,6 +173,21 @@ void SolverLoop::fail(const std::string& why) {
     if (simulation_) status_.solver = simulation_->state();
   }
   log(LogLevel::error, failure);
+}
+
+void SolverLoop::answer_advance() {
+  if (!advancing_) return;
+  const SolverState state = simulation_->state();
+  if (!lock_step_.is_reached(state)) return;
+  advancing_->set_value({true, "step " + std::to_string(state.step) + ", time " + seconds_text(state.time), state.time});
+  advancing_.reset();
+}
+
+void SolverLoop::cut_advance_short(const std::string& why) {
+  if (!advancing_) return;
+  const double time = simulation_->state().time;
+  advancing_->set_value({false, "cut short at " + seconds_text(time) + ": " + why, time});
+  advancing_.reset();
 }
 
 // ---------------------------------------------------------------- requests
@@ -193,6 +210,7 @@ void SolverLoop::refuse_requests() {
   const std::lock_guard<std::mutex> lock(mutex_);
   accepts_requests_ = false;
   requests_.clear();  // whose futures then hold a broken promise
+  advancing_.reset();
 }
 
 Reply SolverLoop::ask(std::function<Reply(Simulation&)> what) {
@@ -225,6 +243,7 @@ Reply SolverLoop::pause(bool paused) {
     }
   }
   return ask([this, paused, what](Simulation&) -> Reply {
+    cut_advance_short(paused ? "the solver was paused" : "the solver was set running");
     const std::lock_guard<std::mutex> lock(mutex_);
     status_.paused = paused;
     return {true, what + " at " + seconds_text(status_.solver.time)};
@@ -233,6 +252,7 @@ Reply SolverLoop::pause(bool paused) {
 
 Reply SolverLoop::step() {
   return ask([this](Simulation& simulation) -> Reply {
+    if (advancing_) return {false, "an advance is in progress"};
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (!status_.paused) return {false, "the solver is running: pause it first"};
@@ -249,8 +269,30 @@ Reply SolverLoop::step() {
   });
 }
 
+Reply SolverLoop::advance_by(double seconds) {
+  std::future<Reply> end;
+  const Reply begun = ask([this, seconds, &end](Simulation& simulation) -> Reply {
+    if (advancing_) return {false, "an advance is in progress already"};
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!status_.paused) return {false, "the solver is running: pause it first"};
+    }
+    lock_step_.ask(simulation.state(), seconds, case_.duration);
+    advancing_ = std::make_shared<std::promise<Reply>>();
+    end = advancing_->get_future();
+    return {true, ""};
+  });
+  if (!begun.success) return {false, begun.message, status().solver.time};
+  try {
+    return end.get();
+  } catch (const std::future_error&) {
+    return {false, "the solver has stopped", status().solver.time};
+  }
+}
+
 Reply SolverLoop::reset() {
   return ask([this](Simulation& simulation) -> Reply {
+    cut_advance_short("the simulation was reset");
     const SolverState last = simulation.state();
     simulation.reset();
     hooks_.restarted(last);

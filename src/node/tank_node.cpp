@@ -54,6 +54,7 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
   LoopSettings settings;
   settings.restore_from = parameters.restore;
   settings.failure_snapshot = snapshot_path("failure");
+  settings.paused = parameters.paused;
   if (parameters.wait_for_subscribers > 0) settings.may_start = [this] { return everything_is_heard(); };
   loop_ = std::make_unique<SolverLoop>(case_, std::move(options), std::move(settings), make_hooks());
   advertise_services();
@@ -109,6 +110,11 @@ void TankNode::advertise_topics() {
   if (!moving.empty()) moving_transforms_ = std::make_unique<TransformPublisher>(handle_);
   if (std::any_of(case_.joints.begin(), case_.joints.end(), has_position))
     advertise(PoseMessages::joint_states_topic, sensor_msgs::JointState());
+  const auto advertise_inertia = [this](std::size_t owner, Motion motion, const std::string& body) {
+    if (motion == Motion::free) inertias_[owner] = private_.advertise<geometry_msgs::InertiaStamped>(inertia_topic(body), 1, true);
+  };
+  advertise_inertia(0, case_.tank.motion, tank_name);
+  for (std::size_t b = 0; b < case_.bodies.size(); ++b) advertise_inertia(1 + b, case_.bodies[b].motion, case_.bodies[b].name);
   markers_ = private_.advertise<visualization_msgs::MarkerArray>(SampleMessages::markers_topic, 1, true);
   // Lines that move come beside what is latched, not in its place.
   if (any_moorings) advertise(SampleMessages::markers_topic, visualization_msgs::MarkerArray());
@@ -136,6 +142,15 @@ void TankNode::advertise_services() {
   trigger("step", [this] { return loop_->step(); });
   trigger("reset", [this] { return loop_->reset(); });
   trigger("save", [this] { return loop_->save([this](const SolverState& state) { return snapshot_path(time_text(state.time)); }); });
+  services_.push_back(private_.advertiseService<Advance::Request, Advance::Response>(
+      "advance", [this](Advance::Request& request, Advance::Response& response) {
+        const Reply reply = loop_->advance_by(request.seconds);
+        response.success = reply.success;
+        response.message = reply.message;
+        response.time = reply.time;
+        response.stamp = clock_.at(reply.time);
+        return true;
+      }));
   services_.push_back(private_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
       "pause", [this](std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
         const Reply reply = loop_->pause(request.data);
@@ -167,6 +182,7 @@ void TankNode::started(const Simulation& simulation) {
   const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation.bodies()));
   messages_ = std::make_unique<SampleMessages>(case_, simulation.layout(), frames);
   markers_.publish(markers(case_, simulation.layout(), frames));
+  for (const auto& [owner, publisher] : inertias_) publisher.publish(inertia_message(simulation.bodies().properties(owner), frames[owner]));
   case_publisher_.publish(case_message(simulation.scene(), simulation.device_description()));
   const auto transforms = static_transforms(case_, frames);
   if (!transforms.empty()) static_transforms_.sendTransform(transforms);

@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
   try {
     wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
-    ros::AsyncSpinner spinner(2);
+    ros::AsyncSpinner spinner(3);  // one waits for the end of ~advance
     spinner.start();
     while (ros::ok() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
     spinner.stop();

@@ -2,11 +2,13 @@
 """Bodies that move, as others see and push them: odometry, tf, joints, wrenches and velocities from topics, reset; a tank that moves, a restored
 node, and a robot."""
 
+import contextlib
 import math
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 import unittest
 
@@ -14,27 +16,30 @@ import roslib.packages
 import rospy
 import rostest
 from ear import Ear
-from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped, WrenchStamped
+from geometry_msgs.msg import InertiaStamped, Point, PointStamped, Pose, Quaternion, Twist, Vector3Stamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu, JointState, PointCloud2
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray
 from wavetank.msg import MooringTension, ProbeArray, SectionFlow, SolverStatus, WaveGaugeArray
+from wavetank.srv import Advance
 
 FLOATING_BOX = os.path.join(os.path.dirname(os.path.abspath(__file__)), "floating_box.yaml")
 BOX = "/wavetank/bodies/box/odom"
 TROLLEY = "/wavetank/bodies/trolley/odom"
 CARRIAGE = "/carriage/bodies/tank/odom"
 IMU = "/wavetank/bodies/box/imu"
+WRENCH = "/wavetank/bodies/box/external_wrench"
 CHAIN = "/wavetank/bodies/box/moorings/chain/tension"
 TOPICS = {
     BOX: Odometry,
     TROLLEY: Odometry,
     CARRIAGE: Odometry,
     "/wavetank/bodies/box/wrench": WrenchStamped,
+    WRENCH: WrenchStamped,
     "/wavetank/joint_states": JointState,
     "/wavetank/markers": MarkerArray,
     "/wavetank/probes": ProbeArray,
@@ -92,9 +97,9 @@ class Bodies(unittest.TestCase):
             for name, kind in (("pause", SetBool), ("step", Trigger), ("reset", Trigger), ("save", Trigger)):
                 rospy.wait_for_service("/%s/%s" % (node, name), 60.0)
                 cls.services[node, name] = rospy.ServiceProxy("/%s/%s" % (node, name), kind, persistent=True)
-        cls.call("pause", True, node="carriage")
-        cls.push = cls.advertise("/wavetank/bodies/box/external_wrench", WrenchStamped)
+        cls.push = cls.advertise(WRENCH, WrenchStamped)
         cls.drive = cls.advertise("/wavetank/bodies/trolley/cmd_vel", Twist)
+        cls.hand = cls.advertise("/wavetank/handles/feedback", InteractiveMarkerFeedback)
         cls.pull = cls.advertise("/carriage/bodies/tank/cmd_vel", Twist)
         cls.ear = Ear(TOPICS)
         cls.ear.wait(lambda: cls.ear.all(BOX) and cls.time() > CALM, "%g s of simulated time" % CALM)
@@ -345,6 +350,71 @@ class Bodies(unittest.TestCase):
         self.assertAlmostEqual(shaft()[0] - begin, 0.2, delta=0.005)
         self.assertEqual(len(self.warnings("a command that is NaN")), 1)
 
+    def by_hand(self, topic):
+        """What the handles have sent."""
+        return [message for message in self.ear.all(topic) if message._connection_header["callerid"] == "/handles"]
+
+    def feel(self, **fields):
+        feedback = InteractiveMarkerFeedback(client_id="test", **fields)
+        feedback.header.frame_id = "tank"
+        self.hand.publish(feedback)
+
+    @contextlib.contextmanager
+    def held(self, name, at):
+        """A handle as rviz drags it."""
+        pose = Pose(Point(*at), Quaternion(0, 0, 0, 1))
+        is_over = threading.Event()
+
+        def drag():
+            self.feel(marker_name=name, control_name="move_x", event_type=InteractiveMarkerFeedback.MOUSE_DOWN, pose=pose)
+            while not is_over.wait(0.2):
+                self.feel(marker_name=name, control_name="move_x", event_type=InteractiveMarkerFeedback.KEEP_ALIVE, pose=pose)
+            self.feel(marker_name=name, control_name="move_x", event_type=InteractiveMarkerFeedback.MOUSE_UP, pose=pose)
+
+        thread = threading.Thread(target=drag)
+        thread.start()
+        self.let_messages_arrive()
+        try:
+            yield
+        finally:
+            is_over.set()
+            thread.join()
+            self.let_messages_arrive()
+
+    def test_09b_a_hand_in_rviz_pulls_the_box(self):
+        inertia = rospy.wait_for_message("/wavetank/bodies/box/inertia", InertiaStamped, 5.0).inertia
+        self.assertAlmostEqual(inertia.m, 500.0 * 0.24 * 0.1, 9)
+        handles = {marker.name: marker for marker in rospy.wait_for_message("/wavetank/handles/update_full", InteractiveMarkerInit, 5.0).markers}
+        self.assertEqual(set(handles), {"box", "trolley", "paddle", "run"})
+        self.assertEqual([entry.title for entry in handles["box"].menu_entries], ["Pause", "Go on", "Step", "Reset"])
+        self.assertEqual(self.by_hand(WRENCH), [], "a handle that nobody holds")
+        box = self.ear.last(BOX).pose.pose.position
+        goal = box.x + (0.5 if box.x < 0.55 else -0.5)
+        with self.held("box", (goal, 0, box.z)):
+            self.run_until(self.time() + 3.0)
+        missed = self.ear.last(BOX).pose.pose.position.x - goal
+        sent = self.by_hand(WRENCH)
+        greatest = max(math.hypot(message.wrench.force.x, message.wrench.force.z) for message in sent)
+        print("a hand took the box to %.3f m from where it wanted it, with at most %.1f N/m" % (missed, greatest))
+        self.assertLess(abs(missed), 0.05)
+        self.assertLess(greatest, 0.5 * 12.0 * 9.81 + 1e-6, "half of its weight")
+        self.assertGreater(greatest, 0.5 * 12.0 * 9.81 - 1e-6, "at first, half a metre away")
+        self.assertEqual((sent[-1].header.frame_id, sent[-1].wrench.force.x, sent[-1].wrench.force.z), ("tank", 0.0, 0.0), "let go")
+        self.run_until(self.time() + WRENCH_TIMEOUT)
+        self.assertEqual(len(self.by_hand(WRENCH)), len(sent), "let go is let go")
+
+    def test_09c_a_hand_in_rviz_drives_the_trolley_and_steps_the_run(self):
+        at = self.ear.last(TROLLEY).pose.pose.position
+        with self.held("trolley", (at.x - 0.05, 0, at.z)):
+            self.run_until(self.time() + 0.1)
+            self.assertAlmostEqual(min(speed(odometry) for odometry in self.ear.all(TROLLEY)[-50:]), -2.0 * 0.05, delta=0.02, msg="twice the way a second")
+            self.run_until(self.time() + 1.5)
+        self.assertAlmostEqual(self.ear.last(TROLLEY).pose.pose.position.x, at.x - 0.05, delta=0.01)
+        before = rospy.wait_for_message("/wavetank/status", SolverStatus, 5.0).step
+        self.feel(marker_name="run", control_name="menu", event_type=InteractiveMarkerFeedback.MENU_SELECT, menu_entry_id=3)
+        self.let_messages_arrive()
+        self.assertEqual(rospy.wait_for_message("/wavetank/status", SolverStatus, 5.0).step, before + 1)
+
     def test_10_who_listens_to_a_paused_tank_gets_the_last_poses(self):
         before = len(self.transforms("tank/bodies/box"))
         self.ear.subscribe_again("/tf")
@@ -368,7 +438,22 @@ class Bodies(unittest.TestCase):
             self.assertEqual(first.twist, second.twist)
         self.assertGreaterEqual(len(again), 50)
 
+    def test_11a_a_span_in_progress_refuses_others_and_is_cut_short_by_a_pause(self):
+        advance = rospy.ServiceProxy("/wavetank/advance", Advance)
+        answers = []
+        thread = threading.Thread(target=lambda: answers.append(advance(100.0)))
+        thread.start()
+        before = self.time()
+        self.ear.wait(lambda: self.time() > before + 0.01, "the span begins")
+        self.assertIn("in progress", advance(0.1).message)
+        self.assertIn("in progress", self.services["wavetank", "step"]().message)
+        self.call("pause", True)
+        thread.join(10.0)
+        self.assertFalse(answers[0].success)
+        self.assertIn("the solver was paused", answers[0].message)
+
     def test_12_a_tank_is_driven_through_the_world(self):
+        self.assertEqual(set(self.ear.stamps(CARRIAGE)) - {0}, set(), "~paused: it has not moved yet")
         heard = len(self.ear.all(CARRIAGE))
         self.call("reset", node="carriage")
         self.ear.wait(lambda: len(self.ear.all(CARRIAGE)) > heard, "the first pose after a reset")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A live node: every topic's type, frame, stamps and units; its services; its clock over a reset."""
 
+import math
 import os
 import sys
 import time
@@ -18,6 +19,7 @@ from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import ProbeArray, SolverStatus, WaveGaugeArray
+from wavetank.srv import Advance
 
 HYDROSTATIC = 1000.0 * 9.81 * 0.15  # Pa, 0.15 m under the surface
 TOPICS = {
@@ -49,10 +51,11 @@ class LiveNode(unittest.TestCase):
         rospy.init_node("live_node_test")
         cls.ear = Ear(TOPICS)
         cls.wait_for_phase(SolverStatus.FINISHED)
-        for name in ["pause", "step", "reset", "save"]:
+        for name in ["pause", "step", "advance", "reset", "save"]:
             rospy.wait_for_service("/wavetank/" + name)
         cls.pause = rospy.ServiceProxy("/wavetank/pause", SetBool)
         cls.step = rospy.ServiceProxy("/wavetank/step", Trigger)
+        cls.advance = rospy.ServiceProxy("/wavetank/advance", Advance)
         cls.reset = rospy.ServiceProxy("/wavetank/reset", Trigger)
         cls.save = rospy.ServiceProxy("/wavetank/save", Trigger)
 
@@ -142,6 +145,7 @@ class LiveNode(unittest.TestCase):
 
     def test_10_services(self):
         self.assertFalse(self.step().success, "a step while not paused")
+        self.assertIn("pause it first", self.refused_advance(0.01))
         self.assertTrue(self.pause(True).success)
         answer = self.reset()
         self.assertTrue(answer.success, answer.message)
@@ -156,8 +160,28 @@ class LiveNode(unittest.TestCase):
         self.assertTrue(os.path.isabs(answer.message) and os.path.isfile(answer.message), answer.message)
         time.sleep(1.5)
         self.assertEqual(self.ear.all("/wavetank/status")[-1].step, 3, "paused is paused")
+        self.advance_in_spans()
         self.assertTrue(self.pause(False).success)
         self.wait_for_phase(SolverStatus.FINISHED)
+
+    def refused_advance(self, seconds):
+        answer = self.advance(seconds)
+        self.assertFalse(answer.success, answer.message)
+        return answer.message
+
+    def advance_in_spans(self):
+        """From after three steps, paused."""
+        begin = self.advance(0.0).time
+        for n in range(1, 11):
+            answer = self.advance(0.01)
+            self.assertTrue(answer.success, answer.message)
+            late = answer.time - (begin + 0.01 * n)
+            self.assertTrue(-1e-9 <= late < 2e-3, "spans add up, to within a step of less than 2 ms: %g s late" % late)
+            self.assertEqual(answer.stamp.to_nsec(), 1000000000 + round(answer.time * 1e9), "the second run's stamps")
+        for seconds in (math.nan, math.inf, -0.01):
+            self.assertIn("at least 0", self.refused_advance(seconds))
+        self.assertIn("the run ends at 0.3 s", self.refused_advance(0.25))
+        self.assertEqual(self.advance(0.0).time, answer.time)
 
     def test_11_the_second_run_follows_the_first_in_time_and_repeats_it(self):
         stamps = self.ear.stamps("/wavetank/probes")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/InertiaStamped.h>
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
@@ -131,6 +132,10 @@ struct RunState {
 
 SolverStatus status_message(const Case& checked, const SolverState& solver, const EnergySample& energies, const RunState& run,
                             const StampClock& clock);
+
+/// How heavy a free body is: mass (2-D: of a metre of width), its centre in the body's frame, and the inertia about that (2-D: only yy);
+/// for controllers. Without a stamp: it holds throughout.
+geometry_msgs::InertiaStamped inertia_message(const MassProperties& properties, const BodyFrame& frame);
 
 /// What a bag needs to be understood and its run to be repeated: version and device as comments, then the whole case as YAML.
 std_msgs::String case_message(const Case& checked, const std::string& device);

@@ -19,6 +19,7 @@ std::string mooring_topic(const std::string& body, const std::string& mooring); 
 std::string joint_command_topic(const std::string& joint);                            ///< "joints/flap/command", listened to
 std::string wrench_topic(const std::string& body);                                    ///< "bodies/box/wrench"
 std::string odometry_topic(const std::string& body);                                  ///< "bodies/box/odom"
+std::string inertia_topic(const std::string& body);                                   ///< "bodies/box/inertia"
 std::string outside_wrench_topic(const std::string& body);                            ///< "bodies/box/external_wrench", listened to
 std::string command_topic(const std::string& body);                                   ///< "bodies/box/cmd_vel", listened to
 std::string flow_topic(const std::string& opening);                                   ///< "openings/hose/flow"

@@ -17,6 +17,7 @@ struct NodeParameters {
   std::string bag;                       ///< bag for the node to write itself, every sample in it; empty = none
   bool bag_clouds = false;               ///< with the free surface in it
   bool bag_surface = false;              ///< with the water's surface as a mesh and a height map in it
+  bool paused = false;                   ///< the run begins paused
   bool exit_at_end = false;              ///< end the process when the duration has passed
   double wait_for_subscribers = 0.0;     ///< s of wall time that the first step may wait for a subscriber of every list of samples
   double external_wrench_timeout = 0.5;  ///< s of simulated time that a wrench from a topic is held; 0 = until it is replaced

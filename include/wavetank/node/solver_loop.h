@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "wavetank/simulation/lock_step.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
@@ -31,6 +32,7 @@ struct LoopStatus {
 struct Reply {
   bool success = false;
   std::string message;
+  double time = 0;  ///< s of simulated time, of advance_by
 };
 
 /// What the loop's owner does with a simulation; each is called in the solver's thread, and none may keep the reference.
@@ -47,6 +49,7 @@ struct LoopSettings {
   std::string restore_from;         ///< snapshot to go on from; empty = start at time 0
   std::string failure_snapshot;     ///< written when the simulation fails after its start; empty = none
   std::function<bool()> may_start;  ///< the first step waits until this is true; empty = at once
+  bool paused = false;              ///< at the start
 };
 
 /// Runs a simulation in a thread of its own: starts it, steps it until its duration has passed, and between two steps does what others ask
@@ -63,7 +66,10 @@ class SolverLoop {
 
   /// Once it is answered, no step is in progress. During the start: the run will begin paused, or not.
   Reply pause(bool paused);
-  Reply step();   ///< one step; only while paused and before the end
+  Reply step();  ///< one step; only while paused and before the end
+  /// Goes on by a span of simulated time, s, while paused, as LockStep has it; answered when it is done. Pauses, resets and failures cut it
+  /// short, which is answered as no success.
+  Reply advance_by(double seconds);
   Reply reset();  ///< back to time 0; paused stays paused
   /// Writes a snapshot to the path that is made from the state saved, and answers with it.
   Reply save(const std::function<std::string(const SolverState&)>& path);
@@ -82,6 +88,8 @@ class SolverLoop {
   void serve_requests();
   void refuse_requests();
   void fail(const std::string& why);
+  void answer_advance();
+  void cut_advance_short(const std::string& why);
   bool wait_for_pace();
   Reply ask(std::function<Reply(Simulation&)> what);
 
@@ -97,7 +105,9 @@ class SolverLoop {
   LoopStatus status_;
   std::deque<Request> requests_;
   bool accepts_requests_ = false;
-  std::exception_ptr failure_in_request_;  ///< of the solver's thread only
+  std::exception_ptr failure_in_request_;           ///< of the solver's thread only
+  LockStep lock_step_;                              ///< likewise
+  std::shared_ptr<std::promise<Reply>> advancing_;  ///< likewise: of the span in progress; null = none
 
   bool pace_known_ = false;
   Clock::time_point pace_wall_;

@@ -5,6 +5,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <wavetank/Advance.h>
 
 #include <atomic>
 #include <map>
@@ -70,6 +71,7 @@ class TankNode {
   StampClock clock_;
   std::unique_ptr<SampleMessages> messages_;  ///< of the solver's thread, once started
   std::map<std::string, ros::Publisher> sample_publishers_;
+  std::map<std::size_t, ros::Publisher> inertias_;  ///< of the free, by owner: 0 the tank, 1 + i body i
   ros::Publisher markers_, case_publisher_, status_, ros_clock_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::unique_ptr<TransformPublisher> moving_transforms_;  ///< none where nothing moves
