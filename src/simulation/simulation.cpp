@@ -216,12 +216,7 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
   parts.find_films();  // with the pressures of the start
   parts.report =
       parts.solver->settle(parts.scene.numerics.packing.settling, [&](double fraction) { parts.progress("settling", fraction); });
-  try {
-    parts.check(parts.report);
-  } catch (const Violation& violation) {
-    throw Violation(std::string("before the start (numerics/packing/settling is ") + number(parts.scene.numerics.packing.settling) +
-                    "): " + violation.what());
-  }
+  parts.check_start();
   if (parts.world.anything_moves()) parts.solver->set_wall_motions(parts.coupling.now());
   parts.initial_fluid = parts.solver->save();
   parts.initial_bodies = parts.saved_bodies();

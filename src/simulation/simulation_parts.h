@@ -40,6 +40,8 @@ struct Simulation::Parts {
   void step_on();
   /// Throws Violation for a step that the simulation may not go on from.
   void check(const StepReport& report);
+  /// The same of the first forces, before any step.
+  void check_start();
   /// Throws Violation where particles lie upon each other instead of filling their volume.
   void check_volume();
   /// Says once that the water is fast beside its sound.

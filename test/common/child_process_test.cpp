@@ -50,11 +50,11 @@ TEST(ChildProcess, TellsOfCrashesEndlessLoopsAndHunger) {
               return "";
             }).end,
             End::out_of_time);
-  EXPECT_EQ(in_child([]() -> std::string {
-              std::vector<std::string> all;
-              while (true) all.emplace_back(mebibytes, 'x');
-            }).end,
-            End::out_of_memory);
+  const auto eat = []() -> std::string {
+    std::vector<std::string> all;
+    while (true) all.emplace_back(mebibytes, 'x');
+  };
+  EXPECT_EQ(run_in_child(eat, {100 * mebibytes, 10, 60}).end, End::out_of_memory);
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(run_in_child(
                 []() -> std::string {

@@ -280,13 +280,13 @@ TEST_F(MeshReader, RefusesPlyTextsInPlainWords) {
   refuses(head + faces + places + "3 0 1 1.5\n", "line 13: face 0 names vertex 1.5");
   refuses(head + faces + places + "9999 0 1 2\n", "line 13: face 0 has a list of 9999, which the rest of the file does not hold");
   refuses(head + faces + "0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "line 11: vertex 1 has 'nan'");
-  refuses(head + faces + "0 0 0\n1 0 x\n", "line 11: vertex 1 has 'x'");
+  refuses(head + faces + "0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "line 11: vertex 1 has 'x'");
   refuses(head + faces + places, "line 13: it ends within face 0");
   refuses("ply\nformat ascii 1.0\nelement vertex 1e9\n", "line 3: element vertex counts '1e9'; it must be a whole number");
   refuses("ply\nformat ascii 1.0\nelement face 3\nend_header\n1 2 3\n", "line 5: element face has no properties");
   refuses("ply\nproperty list float int vertex_indices\n", "line 2: a property stands before the first element");
   refuses("ply\nformat utf16 1.0\n", "line 2: its format is 'utf16'");
-  refuses(head + "end_header\n" + places, "line 11: it has no element face");
+  refuses(head + "end_header\n" + places, "line 10: it has no element face");
   refuses("solid a\n", "line 1: it does not begin with ply");
 }
 
