@@ -79,8 +79,9 @@ endif()
 if(TARGET tests)
   add_dependencies(tests fuzz)
 endif()
-list(APPEND program_tests fuzz)
-add_test(NAME fuzz COMMAND fuzz --count 200)
+list(APPEND program_tests fuzz fuzz_obj)
+add_test(NAME fuzz COMMAND fuzz --count 200 cases numbers overrides stl dae ply motions urdf snapshots expressions)
+add_test(NAME fuzz_obj COMMAND fuzz --count 40 obj)  # of which each makes assimp fill some 50 MB of buffers
 
 # Longer runs, which scripts/validate starts, and what draws the picture of docs/walls.md.
 foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate channel_flow)
