@@ -177,7 +177,7 @@ class Mutation {
                                                 "../../../etc/passwd",
                                                 "%s%n",
                                                 "é",
-                                                "‮"};
+                                                "\xe2\x80\xae"};
     return texts;
   }
 
