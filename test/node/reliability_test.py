@@ -83,7 +83,7 @@ class Starts(ReliabilityTest):
         spinning = self.case(bodies=[dict(BOX, angular_velocity=[0, 1e5, 0])], instruments__pressure_probes=[])
         self.both_refuse(spinning, "body 'box'", "speed of sound", code=3)
         self.both_refuse(self.case(fluid__initial={"u": "15"}), "particle", "speed of sound", code=3)
-        self.both_refuse(self.case(fluid__initial={"u": "1/(x-x)"}), "particle", "not finite", code=3)
+        self.both_refuse(self.case(fluid__initial={"u": "1/(x-x)"}), "fluid/initial/u", "not finite")
         soft = self.case(fluid__sound_speed=0.3, bodies=[], numerics__packing={"iterations": 5, "settling": 3})
         self.both_refuse(soft, "speed of sound", code=3)
 
