@@ -69,6 +69,20 @@ list(APPEND program_tests oclgrind_sph)
 add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/watched_by_oclgrind.sh
   ${CMAKE_CURRENT_SOURCE_DIR}/src/sph/kernels $<TARGET_FILE:every_kernel>)
 
+# Damaged inputs of every kind; scripts/validate fuzz takes more of them.
+add_executable(fuzz EXCLUDE_FROM_ALL test/fuzz/fuzz.cpp)
+target_link_libraries(fuzz wavetank_simulation)
+target_compile_definitions(fuzz PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
+if(WAVETANK_STANDALONE)
+  set_target_properties(fuzz PROPERTIES EXCLUDE_FROM_ALL FALSE)
+endif()
+if(TARGET tests)
+  add_dependencies(tests fuzz)
+endif()
+list(APPEND program_tests fuzz fuzz_obj)
+add_test(NAME fuzz COMMAND fuzz --count 200 cases numbers overrides stl dae ply motions urdf snapshots expressions)
+add_test(NAME fuzz_obj COMMAND fuzz --count 40 obj)  # of which each makes assimp fill some 50 MB of buffers
+
 # Longer runs, which scripts/validate starts, and what draws the picture of docs/walls.md.
 foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate channel_flow)
   add_executable(${program} EXCLUDE_FROM_ALL test/validation/${program}.cpp)
@@ -107,7 +121,7 @@ endif()
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)
   find_package(rostest REQUIRED)
-  foreach(name wavetank_run_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_test pages_test)
+  foreach(name wavetank_run_test reliability_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_test pages_test)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
     list(APPEND program_tests node_${name})

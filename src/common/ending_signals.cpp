@@ -8,8 +8,11 @@ namespace wavetank {
 
 EndingSignals::EndingSignals(std::function<void(int)> on_first) : on_first_(std::move(on_first)) {
   sigemptyset(&awaited_);
-  sigaddset(&awaited_, SIGINT);
-  sigaddset(&awaited_, SIGTERM);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction before;
+    const bool stays_ignored = number == SIGHUP && sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;
+    if (!stays_ignored) sigaddset(&awaited_, number);
+  }
   pthread_sigmask(SIG_BLOCK, &awaited_, &before_);
   thread_ = std::thread([this] { wait(); });
 }
@@ -28,7 +31,7 @@ void EndingSignals::wait() {
     if (sigwait(&awaited_, &number) != 0) continue;
     if (is_over_) return;
     if (is_first) on_first_(number);
-    if (!is_first) {
+    if (!is_first && number == SIGINT) {
       std::signal(number, SIG_DFL);
       pthread_sigmask(SIG_UNBLOCK, &awaited_, nullptr);
       std::raise(number);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wavetank/common/error.h"
+#include "wavetank/common/visible_text.h"
 
 namespace wavetank {
 
@@ -34,7 +35,7 @@ Expression::Expression(const std::string& text, Of of) : parser_(std::make_uniqu
         at >= 0 && at < static_cast<int>(text.size()) ? "at its character " + std::to_string(at + 1) : std::string("at its end");
     std::string what = failure.GetMsg();
     what = what.substr(0, what.find(" found at position"));  // which counts from 0
-    throw Error("\"" + text + "\" is no expression of " + variables(of) + ": " + what + ", " + place);
+    throw Error("\"" + visible_text(text) + "\" is no expression of " + variables(of) + ": " + visible_text(what) + ", " + place);
   }
 }
 

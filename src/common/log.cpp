@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "wavetank/common/visible_text.h"
+
 namespace wavetank {
 namespace {
 
@@ -26,7 +28,7 @@ void set_log_sink(LogSink replacement) {
 
 void log(LogLevel level, const std::string& line) {
   const std::lock_guard<std::mutex> lock(mutex);
-  if (sink()) sink()(level, line);
+  if (sink()) sink()(level, visible_lines(line));
 }
 
 }  // namespace wavetank

@@ -9,9 +9,12 @@
 #include <sstream>
 
 #include "wavetank/common/error.h"
+#include "wavetank/common/visible_text.h"
 
 namespace wavetank {
 namespace {
+
+constexpr std::size_t longest_shown = 40, most_listed = 20;  // of a file's words, in messages
 
 std::string trimmed(const std::string& text) {
   const char* const blanks = " \t\r";
@@ -92,7 +95,8 @@ std::string RecordFile::listed_columns() const {
   std::string list;
   for (std::size_t k = 0; k < names_.size(); ++k) {
     if (k > 0) list += k + 1 < names_.size() ? ", " : " and ";
-    list += "'" + names_[k] + "'";
+    if (k == most_listed) return list + std::to_string(names_.size() - k) + " more";
+    list += "'" + visible_text(names_[k], longest_shown) + "'";
   }
   return list;
 }
@@ -111,7 +115,7 @@ std::vector<double> RecordFile::numbers(const std::string& column) const {
   values.reserve(rows_.size());
   for (const Row& row : rows_) {
     const std::optional<double> value = number(row.values[index]);
-    if (!value) throw Error(place(row.line) + " column '" + column + "': '" + row.values[index] + "' is not a finite number");
+    if (!value) throw Error(place(row.line) + " column '" + column + "': '" + visible_text(row.values[index], longest_shown) + "' is not a finite number");
     values.push_back(*value);
   }
   return values;

@@ -355,6 +355,20 @@ void check_sizes(const Case& checked, const std::vector<Part>& parts, const Layo
   }
 }
 
+/// Of a tank that a slip of the pen has made endless, before minutes go into its walls.
+void tell_of_endless_tank(const Case& checked, const Layout& layout) {
+  constexpr double many_cells = 3e6, many_times = 300;
+  Vector3d size = layout.domain.max - layout.domain.min;
+  if (checked.dimensions == 2) size.y() = 1;
+  Vector3d cells = (size / layout.spacing).cwiseMax(1);
+  if (checked.dimensions == 2) cells.y() = 1;
+  const double water = volume_bound(checked, layout.domain), times = size.prod() / water;
+  if (!(water > 0 && cells.prod() > many_cells && times > many_times)) return;
+  log(LogLevel::warning, "the tank reaches from " + describe(layout.domain.min) + " to " + describe(layout.domain.max) + " m, " +
+                             describe(std::round(times)) + " times as large as its water, and takes " + describe(std::round(cells.prod())) +
+                             " cells of the particle spacing of " + describe(layout.spacing) + " m: check its size");
+}
+
 void add_walls(const std::vector<Part>& parts, const std::vector<int>& assemblies, const OpenSpace& open, const TriangleGrid& grid,
                const Case& checked, Layout& layout) {
   const Vector3d margin = Vector3d::Constant(2 * layout.spacing);
@@ -460,6 +474,7 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   layout.moving.assign(parts.size(), false);  // the tank never does: the fluid is solved in its frame
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) layout.moving[b + 1] = checked.bodies[b].motion != Motion::fixed;
   check_sizes(checked, parts, layout);
+  tell_of_endless_tank(checked, layout);
 
   const std::vector<FilledRegion> regions = fill(checked, basin, layout.spacing);
   for (const FilledRegion& region : regions) check_watertight(basin, layout.spacing, region);

@@ -6,15 +6,21 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <new>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
+#include "collada_checks.h"
 #include "mesh_file_access.h"
 #include "mesh_topology.h"
+#include "ply_reader.h"
 #include "polygon.h"
 #include "shape_mesh.h"
 #include "stl_reader.h"
+#include "wavetank/common/child_process.h"
 #include "wavetank/common/error.h"
 #include "wavetank/geometry/mesh.h"
 #include "wavetank/scene/file_path.h"
@@ -74,6 +80,9 @@ void add_node(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& p
         corners.push_back(mesh.vertices[first + static_cast<int>(face.mIndices[k])]);
       }
       if (corners.size() < 3) continue;  // points and lines bound nothing
+      if (corners.size() > most_corners)
+        throw Error("mesh file '" + path + "': face " + std::to_string(f) + " has " + std::to_string(corners.size()) + " corners; " +
+                    std::to_string(most_corners) + " at most are allowed");
       for (const Vector3i& t : triangulate(corners)) {
         mesh.triangles.emplace_back(first + static_cast<int>(face.mIndices[t[0]]), first + static_cast<int>(face.mIndices[t[1]]),
                                     first + static_cast<int>(face.mIndices[t[2]]));
@@ -125,21 +134,130 @@ void merge_vertices(TriangleMesh& mesh, double tolerance) {
 
 /// Through assimp.
 TriangleMesh import_file(const std::string& path, const Names& wanted_parts) {
+  if (is_collada(path)) check_collada(path);
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshFileAccess);  // the importer owns it
   // Collada: the file's axes stay as they are written, as in rviz; its unit is applied, so that coordinates are metres.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, 0);  // no processing: some of its steps abort the program on corrupt faces
-  if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
+  const std::string problem = importer.GetErrorString();
+  if (problem.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  if (problem.find("vector::") != std::string::npos || problem.find("basic_string") != std::string::npos)  // of C++, not assimp's own
+    throw Error("mesh file '" + path + "' is damaged: its counts do not fit what it holds");
+  if (!scene || !scene->mRootNode) throw Error("mesh file '" + path + "' cannot be read: " + problem);
 
   TriangleMesh mesh;
   add_node(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), path, wanted_parts, mesh);
   return mesh;
 }
 
+// ---- a mesh as bytes, from the process that reads it
+
+template <class Value>
+void put(std::string& bytes, const Value* values, std::size_t count) {
+  if (count > 0) bytes.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+}
+
+void put_count(std::string& bytes, std::uint64_t count) { put(bytes, &count, 1); }
+
+template <class Value>
+void put_all(std::string& bytes, const std::vector<Value>& values) {
+  put_count(bytes, values.size());
+  put(bytes, values.data(), values.size());
+}
+
+std::string bytes_of(const TriangleMesh& mesh) {
+  std::string bytes;
+  put_all(bytes, mesh.vertices);
+  put_all(bytes, mesh.triangles);
+  put_count(bytes, mesh.parts.size());
+  for (const MeshPart& part : mesh.parts) {
+    put_all(bytes, std::vector<char>(part.name.begin(), part.name.end()));
+    put_all(bytes, part.triangles);
+  }
+  return bytes;
+}
+
+class MeshBytes {
+ public:
+  explicit MeshBytes(const std::string& bytes) : bytes_(bytes) {}
+
+  /// None of what is no mesh.
+  std::optional<TriangleMesh> mesh() {
+    TriangleMesh mesh;
+    take_all(mesh.vertices);
+    take_all(mesh.triangles);
+    mesh.parts.resize(count());
+    for (MeshPart& part : mesh.parts) {
+      std::vector<char> name;
+      take_all(name);
+      part.name.assign(name.begin(), name.end());
+      take_all(part.triangles);
+    }
+    const int vertices = static_cast<int>(mesh.vertices.size());
+    for (const Vector3i& triangle : mesh.triangles)
+      if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices) return std::nullopt;
+    return mesh;
+  }
+
+ private:
+  /// Bounded by what there is: a reader that writes over its own memory may say anything.
+  std::uint64_t count(std::size_t size = 1) {
+    std::uint64_t value = 0;
+    if (bytes_.size() - at_ >= sizeof value) std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ = std::min(at_ + sizeof value, bytes_.size());
+    return std::min<std::uint64_t>(value, (bytes_.size() - at_) / size);
+  }
+
+  template <class Value>
+  void take_all(std::vector<Value>& values) {
+    values.resize(count(sizeof(Value)));
+    if (values.empty()) return;
+    std::memcpy(static_cast<void*>(values.data()), bytes_.data() + at_, values.size() * sizeof(Value));
+    at_ += values.size() * sizeof(Value);
+  }
+
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Damaged files make assimp crash, loop and take memory without end: it reads in a process of its own, which may take what a sound file
+/// of that size takes a few times over.
+TriangleMesh import_in_child(const std::string& path, const Names& wanted_parts) {
+  constexpr double mebibyte = 1 << 20;
+  constexpr std::uint64_t most_memory = std::uint64_t(3) << 30;
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  ChildLimits limits;
+  limits.memory = std::min(most_memory, static_cast<std::uint64_t>(192 * mebibyte + 200 * size));
+  limits.processor_seconds = 1 + 2 * size / mebibyte;
+  limits.seconds = 12 + 10 * size / mebibyte;  // the machine may be busy
+  const ChildResult result = run_in_child([&] { return bytes_of(import_file(path, wanted_parts)); }, limits);
+  const std::string file = "mesh file '" + path + "' ",
+                    advice = "; it is damaged, or too much for the library that reads it: export it again, best as a binary STL";
+  switch (result.end) {
+    case ChildResult::End::done:
+      if (std::optional<TriangleMesh> mesh = MeshBytes(result.bytes).mesh()) return std::move(*mesh);
+      throw Error(file + "makes its reader write over its own memory" + advice);
+    case ChildResult::End::refused:
+      throw Error(result.bytes.find(path) != std::string::npos ? result.bytes : file + "cannot be read: " + result.bytes);
+    case ChildResult::End::out_of_memory:
+      throw Error(file + "takes more than the " + std::to_string(limits.memory >> 20) + " MiB of memory that a mesh of its size may" +
+                  advice);
+    case ChildResult::End::out_of_time:
+      throw Error(file + "takes longer to read than the " + describe(limits.processor_seconds) + " s that a mesh of its size may" + advice);
+    case ChildResult::End::crashed:
+      break;
+  }
+  throw Error(file + "makes its reader crash (" + result.bytes + ")" + advice);
+}
+
 TriangleMesh read_file(const std::string& path, const Names& wanted_parts) {
   check_file("mesh", path);
-  TriangleMesh mesh = is_stl(path) ? read_stl(path) : import_file(path, wanted_parts);  // assimp takes few of the dialects of STL
+  constexpr std::uintmax_t greatest_file = std::uintmax_t(1) << 30;
+  if (std::filesystem::file_size(path) > greatest_file) throw Error("mesh file '" + path + "' is larger than 1 GiB; make it coarser");
+  TriangleMesh mesh = is_stl(path)   ? read_stl(path)  // assimp takes few of the dialects of STL
+                      : is_ply(path) ? read_ply(path)  // and reads wrong what is binary and begins with a line feed
+                                     : import_in_child(path, wanted_parts);
   mesh.name = std::filesystem::path(path).filename().string();
   check_finite(mesh, 0, path);
   if (mesh.triangles.empty()) throw Error("mesh file '" + path + "' has no triangles");

@@ -21,6 +21,9 @@ Vector3d centroid(const Polygon& polygon);
 /// left.
 Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset, double tolerance);
 
+/// Of a face of a mesh file: ears are cut off one by one.
+constexpr std::size_t most_corners = 4096;
+
 /// Cuts a flat polygon, convex or not, into triangles over its corners by clipping ears; indices into `corners`.
 std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners);
 

@@ -134,6 +134,8 @@ class TextReader {
     } else if (word == "normal") {
       for (int k = 0; k < 3 && words_.next() != "outer"; ++k) continue;  // the vertices' turn says it; some writers leave the numbers out
     } else if (word == "endloop") {
+      if (corners_.size() > most_corners)
+        fail("a loop of " + std::to_string(corners_.size()) + " vertices; " + std::to_string(most_corners) + " at most are allowed");
       if (corners_.size() < 3) fail("a loop of " + std::to_string(corners_.size()) + " vertices; a facet has three or more");
       add_polygon(corners_, mesh_);
     } else if (word == "endfacet") {

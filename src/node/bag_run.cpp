@@ -1,11 +1,13 @@
 #include "wavetank/node/bag_run.h"
 
+#include <climits>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "wavetank/common/log.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/common/whole_file.h"
 #include "wavetank/node/resources.h"
 
@@ -58,7 +60,10 @@ BagRun::Outcome BagRun::run() {
     return Outcome::interrupted;
   } catch (const Violation& violation) {
     progress_.clear();
-    if (!simulation_) throw;  // before the start: there is no state to save
+    if (!simulation_) {  // before the start: there is no state to save, and the bag has nothing
+      log(LogLevel::error, violation.what());
+      return Outcome::violated;
+    }
     violation_ = violation.what();
   } catch (const BagError& full) {
     cut_short(full);
@@ -249,9 +254,10 @@ void BagRun::report() const {
   if (simulated > 0) std::printf(", %.3g times the simulated", seconds_ / simulated);
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
-  if (bag_is_whole_) std::printf("bag               %s\n", recorder_->path().c_str());
-  if (vtk_) std::printf("for ParaView      %s\n", vtk_->path().c_str());
-  if (!options_.save.empty() && violation_.empty() && cut_short_.empty()) std::printf("snapshot          %s\n", options_.save.c_str());
+  if (bag_is_whole_) std::printf("bag               %s\n", visible_text(recorder_->path(), PATH_MAX).c_str());
+  if (vtk_) std::printf("for ParaView      %s\n", visible_text(vtk_->path(), PATH_MAX).c_str());
+  if (!options_.save.empty() && violation_.empty() && cut_short_.empty())
+    std::printf("snapshot          %s\n", visible_text(options_.save, PATH_MAX).c_str());
   if (!options_.profile) return;
   std::printf("\n%-32s %10s %12s %8s\n", "kernel", "launches", "seconds", "share");
   const std::vector<KernelTime> kernels = simulation_->kernel_times();

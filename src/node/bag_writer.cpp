@@ -90,7 +90,11 @@ void BagWriter::open_active() {
     file_ = open_new();
   }
   if (file_ < 0) throw Error("cannot write bag '" + path_ + "': " + std::strerror(errno));
-  flock(file_, LOCK_EX | LOCK_NB);
+  const bool others_have_it = flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!others_have_it && is_same_file(file_, active_path_)) return;
+  close(file_);  // between its making and its lock, a process that began at the same time took it for what one that died had left
+  file_ = -1;
+  throw Error("cannot write bag '" + path_ + "': another process is writing it");
 }
 
 /// Puts what lies at the active name out of the way, if nobody writes it.

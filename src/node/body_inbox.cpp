@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "wavetank/common/error.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/node/geometry_messages.h"
 
 namespace wavetank {
@@ -15,8 +16,8 @@ AskedWrench::Axes axes_of(const std::string& frame, std::size_t owner, const std
   if (frame == tank.name) return AskedWrench::Axes::tank;
   if (frame == tank.parent) return AskedWrench::Axes::world;
   const std::string own = owner == 0 ? "" : "'" + frames[owner].name + "', ";
-  throw Error("a wrench in frame '" + frame + "' is ignored: its frame_id must be " + own + "'" + tank.name + "', '" + tank.parent +
-              "' or empty, which means the body's own");
+  throw Error("a wrench in frame '" + visible_text(frame, 60) + "' is ignored: its frame_id must be " + own + "'" + tank.name + "', '" +
+              tank.parent + "' or empty, which means the body's own");
 }
 
 }  // namespace

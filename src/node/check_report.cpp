@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "wavetank/common/visible_text.h"
 #include "wavetank/node/progress.h"
 
 namespace wavetank {
@@ -55,7 +56,7 @@ std::string waves_text(const ExpectedWaves& waves, double spacing) {
 
 std::string check_report(const Case& checked, const Estimate& estimated) {
   const CaseSize& size = estimated.size;
-  std::string text = checked.title + "\n";
+  std::string text = visible_text(checked.title) + "\n";
   for (std::size_t o = 0; o < size.owners.size(); ++o) {
     const bool is_box_tank = o == 0 && std::holds_alternative<BoxTank>(checked.tank.shape);
     text += line(o == 0 ? "tank" : "body " + size.owners[o].name, owner_text(size.owners[o], checked, is_box_tank));

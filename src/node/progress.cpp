@@ -27,6 +27,8 @@ std::string duration_text(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "?";
   if (seconds < 1.0) return formatted("%.0f ms", 1000.0 * seconds);
   if (seconds < 100.0) return formatted("%.1f s", seconds);
+  constexpr double year = 365.25 * 86400;
+  if (seconds > year) return formatted("%.3g years", seconds / year);
   const long whole = std::lround(seconds);
   char text[64];
   if (whole < 3600)

@@ -14,10 +14,11 @@ namespace wavetank {
 namespace {
 
 const char* const footer =
-    "Ctrl-C ends the run after the step in progress; the bag is whole and readable then, and --save still writes.\n"
+    "Ctrl-C, SIGTERM and SIGHUP end the run after the step in progress; the bag is whole and readable then, and --save still writes.\n"
+    "A second Ctrl-C ends it at once, and leaves BAG.active, which rosbag reindex makes readable.\n"
     "Exit code: 0 done, 2 an error (one sentence on standard error; where the disk is full it says where bag and snapshot\n"
     "are, with all until then), 3 the simulation was stopped by its watchdog\n"
-    "(a snapshot of it is written beside the bag), 130 ended by Ctrl-C, 143 by SIGTERM.\n"
+    "(a snapshot of it is written beside the bag), 130 ended by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP.\n"
     "Case keys: docs/case.md. Topics in the bag: docs/topics.md.";
 
 Override read_override(const std::string& text) {

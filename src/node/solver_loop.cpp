@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "wavetank/common/log.h"
+#include "wavetank/common/whole_file.h"
 
 namespace wavetank {
 
@@ -51,6 +53,12 @@ void SolverLoop::run() {
     loop();
   } catch (const Abandoned&) {
     log(LogLevel::info, "the start was abandoned");
+  } catch (const Violation& violation) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      status_.is_violation = true;
+    }
+    fail(violation.what());
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -160,8 +168,11 @@ void SolverLoop::fail(const std::string& why) {
   std::string failure = why;
   if (status().has_started && !settings_.failure_snapshot.empty()) {
     try {
-      simulation_->save(settings_.failure_snapshot);
-      failure += "; its state is in '" + settings_.failure_snapshot + "'";
+      // A state that nobody asked for takes no other file's place, such as that of the run that this one was restored from.
+      const std::filesystem::path wanted(settings_.failure_snapshot);
+      const std::string path = free_path(std::filesystem::path(wanted).replace_extension().string(), wanted.extension().string());
+      simulation_->save(path);
+      failure += "; its state is in '" + path + "'";
     } catch (const std::exception& second) {
       log(LogLevel::warning, std::string("no snapshot of the failure: ") + second.what());
     }

@@ -21,12 +21,6 @@ constexpr auto recorder_pause = std::chrono::milliseconds(500);  ///< between a 
 constexpr int exit_refused = 2;  // as wavetank_run for a case that cannot be laid out
 constexpr int exit_failed = 3;
 
-std::string time_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4fs", seconds);
-  return text;
-}
-
 }  // namespace
 
 TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup)
@@ -71,7 +65,7 @@ int TankNode::finish() {
   timer_.stop();
   loop_->stop();
   const LoopStatus status = loop_->status();
-  if (status.phase == LoopPhase::failed) return status.has_started ? exit_failed : exit_refused;
+  if (status.phase == LoopPhase::failed) return status.has_started || status.is_violation ? exit_failed : exit_refused;
   clock_note_.reset();
   if (case_.publishing.publish_clock) private_.deleteParam(clock_reached);
   return 0;
@@ -141,7 +135,7 @@ void TankNode::advertise_services() {
   };
   trigger("step", [this] { return loop_->step(); });
   trigger("reset", [this] { return loop_->reset(); });
-  trigger("save", [this] { return loop_->save([this](const SolverState& state) { return snapshot_path(time_text(state.time)); }); });
+  trigger("save", [this] { return loop_->save([this](const SolverState& state) { return path_to_save(state.time); }); });
   services_.push_back(private_.advertiseService<Advance::Request, Advance::Response>(
       "advance", [this](Advance::Request& request, Advance::Response& response) {
         const Reply reply = loop_->advance_by(request.seconds);

@@ -1,6 +1,7 @@
 // What a live node says about itself: status, diagnostics, and when to leave.
 #include <filesystem>
 
+#include "wavetank/common/whole_file.h"
 #include "wavetank/node/tank_node.h"
 
 namespace wavetank {
@@ -26,12 +27,26 @@ std::uint8_t phase_code(LoopPhase phase) {
   return SolverStatus::FAILED;
 }
 
+std::string time_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4fs", seconds);
+  return text;
+}
+
 }  // namespace
 
 std::string TankNode::snapshot_path(const std::string& what) const {
   const std::string node = graph_name(ros::this_node::getName().substr(1));
   const std::filesystem::path folder = setup_.parameters.snapshot_directory.empty() ? "." : setup_.parameters.snapshot_directory;
   return std::filesystem::absolute(folder / (node + "_" + what + ".snapshot")).lexically_normal().string();
+}
+
+/// What an earlier run saved at that time stays; what this one did is replaced.
+std::string TankNode::path_to_save(double time) {
+  const std::filesystem::path wanted = snapshot_path(time_text(time));
+  std::string& saved = saved_[wanted.string()];
+  if (saved.empty()) saved = free_path(std::filesystem::path(wanted).replace_extension().string(), wanted.extension().string());
+  return saved;
 }
 
 void TankNode::every_second() {

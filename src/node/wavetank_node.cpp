@@ -9,6 +9,7 @@
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/node/parameters.h"
 #include "wavetank/node/tank_node.h"
 
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
     return version || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ? 0 : 2;
   }
   wavetank::set_log_sink(log_to_ros);
+  std::signal(SIGPIPE, SIG_IGN);  // whoever reads what is printed may go
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
   if (is_asked_to_end) return 0;
@@ -63,7 +65,7 @@ int main(int argc, char** argv) {
     spinner.stop();
     return node.finish();
   } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
+    ROS_FATAL("%s", wavetank::visible_lines(error.what()).c_str());
     return 2;
   }
 }

@@ -7,6 +7,7 @@
 
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/node/bag_run.h"
 #include "wavetank/node/check_report.h"
@@ -73,6 +74,7 @@ int run(const RunOptions& options) {
 int main(int argc, char** argv) {
   try {
     set_log_sink(log_to_console);
+    std::signal(SIGPIPE, SIG_IGN);  // whoever read what is printed has gone: it goes on without
     const RunOptions options = read_command_line(argc, argv);
     is_quiet = options.quiet;
     switch (options.action) {
@@ -91,7 +93,7 @@ int main(int argc, char** argv) {
         return 0;
     }
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "wavetank_run: %s\n", error.what());
+    std::fprintf(stderr, "wavetank_run: %s\n", visible_lines(error.what()).c_str());
     return exit_error;
   }
   return exit_error;

@@ -50,6 +50,7 @@ class Joint {
                  std::vector<RigidLoad>& loads) const;
   bool is_commanded() const { return joint_.command.has_value(); }
   const std::string& name() const { return joint_.name; }
+  const JointCase& given() const { return joint_; }
 
   JointState state(const std::vector<RigidState>& states) const;
   /// Counts turns; to be called after every step.

@@ -69,11 +69,14 @@ Section<DampingCase> damping_section() {
   return section;
 }
 
+// Sound is hardly ever faster than in water itself, 1480 m/s; beyond this a key is wrong.
+constexpr double greatest_sound_speed = 1e6;  // m/s
+
 Section<FluidCase> fluid_section() {
   Section<FluidCase> section;
   section.key("density", &FluidCase::density, number(greater_than(0)), "kg/m³", "Density ρ₀ at rest.");
   section.key("viscosity", &FluidCase::viscosity, number(at_least(0)), "Pa·s", "Dynamic viscosity μ.");
-  section.key("sound_speed", &FluidCase::sound_speed, number_or_auto(greater_than(0)), "m/s",
+  section.key("sound_speed", &FluidCase::sound_speed, number_or_auto(above_up_to(0, greatest_sound_speed)), "m/s",
               "Speed of sound c₀ of the weakly compressible fluid; `auto` is 10 × the greatest expected speed.");
   section.key("spacing", &FluidCase::spacing, number_if_given(greater_than(0)), "m", "Initial distance Δx of the particles.").required =
       true;

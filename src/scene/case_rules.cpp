@@ -275,6 +275,27 @@ void check_initial(const Case& read, const Setting& root) {
           number_text(waves.height) + " m, with which they would break: " + breaking + "; make it less");
 }
 
+// What moves at the start must be slow beside the water's sound: the watchdog's bound of half of it would stop the run before its first
+// step.
+void check_speeds(const Case& read, const Setting& root) {
+  if (!read.fluid.sound_speed) return;
+  const double most = 0.5 * *read.fluid.sound_speed;
+  const auto check = [&](Vector3d velocity, const std::string& path) {
+    if (read.dimensions == 2) velocity.y() = 0;
+    const double speed = velocity.norm();
+    if (speed < most) return;
+    clash(root, path,
+          number_text(speed) + " m/s fast, and must be below half of fluid/sound_speed, " + number_text(most) +
+              " m/s; make it slower, or choose a fluid/sound_speed of " + number_text(10 * speed) + " m/s, ten times as fast");
+  };
+  check(read.fluid.current, "fluid/current");
+  for (std::size_t b = 0; b < read.bodies.size(); ++b) {
+    const std::string path = join_path("bodies", b);
+    if (read.bodies[b].motion == Motion::free) check(read.bodies[b].rigid.velocity, join_path(path, "velocity"));
+    if (read.bodies[b].motion == Motion::fixed) check(read.bodies[b].surface_velocity, join_path(path, "surface_velocity"));
+  }
+}
+
 // What repeats itself from end to end does not in a frame that turns, whose forces grow with the distance from its axis.
 void check_periodic(const Case& read, const Setting& root) {
   const TankCase& tank = read.tank;
@@ -389,6 +410,7 @@ void check_case(const Case& read, const Setting& root) {
   if (read.fluid.fill.empty() && read.openings.empty())
     refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);
+  check_speeds(read, root);
   check_least_squares(read, root);
   check_friction(read, root, read.numerics.walls.friction, "numerics/walls/friction");
   for (std::size_t b = 0; b < read.bodies.size(); ++b)

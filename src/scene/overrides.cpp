@@ -3,6 +3,7 @@
 
 #include "structure.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/visible_text.h"
 
 namespace wavetank::scene {
 namespace {
@@ -37,7 +38,8 @@ class OverrideWalk {
   void enter_key(const std::string& name) {
     const KeyDescription* key = keys_->child(name);
     if (key == nullptr) {
-      throw Error(label_ + ": " + join_path(path_, name) + " is not a known key" + suggest_key(path_, name, *keys_, root_keys_));
+      throw Error(label_ + ": " + join_path(path_, visible_text(name, 64)) + " is not a known key" +
+                  suggest_key(path_, name, *keys_, root_keys_));
     }
     become(Setting::Kind::map, "a map of keys");
     if (key->alternative != 0) {
@@ -64,7 +66,8 @@ class OverrideWalk {
   void enter_index(const std::string& part) {
     const bool of_sections = keys_->holds == Holds::list_of_sections;
     if (!of_sections && setting_->kind != Setting::Kind::list) {
-      throw Error(label_ + ": " + path_ + " is a single value and has no keys, so " + join_path(path_, part) + " is not a known key");
+      throw Error(label_ + ": " + path_ + " is a single value and has no keys, so " + join_path(path_, visible_text(part, 64)) +
+                  " is not a known key");
     }
     become(Setting::Kind::list, "a list");
     const std::size_t count = setting_->items.size(), end = of_sections ? count + 1 : count;
@@ -72,7 +75,7 @@ class OverrideWalk {
     if (!digits || std::stoul(part) >= end) {
       throw Error(label_ + ": " + path_ + " has " + std::to_string(count) + (count == 1 ? " entry" : " entries") +
                   "; its index must be from 0 to " + std::to_string(end - 1) + (of_sections ? " (the last adds one)" : "") + ", not " +
-                  part);
+                  visible_text(part, 64));
     }
     const std::size_t index = std::stoul(part);
     if (index == count) {
@@ -102,7 +105,7 @@ class OverrideWalk {
 }  // namespace
 
 void apply_override(Setting& root, const KeyDescription& root_keys, const Override& override) {
-  const std::string label = override.given_as + override.key;
+  const std::string label = override.given_as + visible_text(override.key, 100);
   if (override.key.empty()) throw Error("--set: the key is empty; give KEY=VALUE, as in fluid/spacing=0.02");
   Setting value = parse_settings(override.value, label);
   OverrideWalk walk(root, root_keys, label);

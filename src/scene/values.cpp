@@ -11,6 +11,9 @@ namespace {
 
 enum class Reading { number, not_finite, not_a_number };
 
+// Beyond these no length, mass, time or stiffness in SI units makes sense, and single precision, which the device computes in, soon ends.
+constexpr double greatest_number = 1e15, least_above_zero = 1e-20;
+
 Reading read_number(const Setting& setting, double& number) {
   if (setting.kind != Setting::Kind::scalar) return Reading::not_a_number;
   static const std::regex infinite(R"(\s*[-+]?\.?(inf|infinity|nan)\s*)", std::regex::icase);
@@ -28,6 +31,7 @@ double finite_number(const Setting& setting, const Item& item, const std::string
   double number = 0;
   switch (read_number(setting, number)) {
     case Reading::number:
+      if (std::abs(number) > greatest_number) refuse(setting, item, "a number from -1e15 to 1e15");
       return number;
     case Reading::not_finite:
       refuse(setting, item, "a finite number");
@@ -37,13 +41,20 @@ double finite_number(const Setting& setting, const Item& item, const std::string
   refuse(setting, item, demand);
 }
 
+// A number that was read.
+void check_range(double number, const Setting& setting, const Item& item, const Range& range, const std::string& or_word = "") {
+  const std::string end = or_word.empty() ? "" : ", " + or_word;
+  if (!range.contains(number)) refuse(setting, item, range.describe() + end);
+  if (range.above_least && range.least == 0 && number < least_above_zero) refuse(setting, item, "at least 1e-20" + end);
+}
+
 std::string number_demand(const Range& range, const std::string& kind) {
   return range.describe().empty() ? kind : kind + " " + range.describe();
 }
 
 double number_in_range(const Setting& setting, const Item& item, const Range& range) {
   const double number = finite_number(setting, item, number_demand(range, "a number"));
-  if (!range.contains(number)) refuse(setting, item, range.describe());
+  check_range(number, setting, item, range);
   return number;
 }
 
@@ -93,7 +104,7 @@ Codec<std::optional<double>> number_or(const std::string& word, Range range) {
             const std::string demand = number_demand(range, "a number") + ", " + or_word;
             if (read_number(setting, number) == Reading::not_a_number) refuse(setting, item, demand);
             number = finite_number(setting, item, demand);
-            if (!range.contains(number)) refuse(setting, item, range.describe() + ", " + or_word);
+            check_range(number, setting, item, range, or_word);
             return number;
           },
           [word](const std::optional<double>& value, const Context&) -> std::optional<Setting> {

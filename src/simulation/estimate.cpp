@@ -62,6 +62,7 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   }
   parts.report = solver.start();
   parts.time_step = parts.report.time_step;
+  parts.check_start();
   if (parts.world.anything_moves()) solver.set_wall_motions(parts.coupling.now());
   parts.shorten_step();
   parts.step_on();

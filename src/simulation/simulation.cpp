@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "expected_waves.h"
@@ -11,6 +12,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/rigid/prescribed_motion.h"
 
 namespace wavetank {
@@ -214,12 +216,7 @@ Simulation::Simulation(const Case& checked, SimulationOptions options) : parts_(
   parts.find_films();  // with the pressures of the start
   parts.report =
       parts.solver->settle(parts.scene.numerics.packing.settling, [&](double fraction) { parts.progress("settling", fraction); });
-  try {
-    parts.check(parts.report);
-  } catch (const Violation& violation) {
-    throw Violation(std::string("before the start (numerics/packing/settling is ") + number(parts.scene.numerics.packing.settling) +
-                    "): " + violation.what());
-  }
+  parts.check_start();
   if (parts.world.anything_moves()) parts.solver->set_wall_motions(parts.coupling.now());
   parts.initial_fluid = parts.solver->save();
   parts.initial_bodies = parts.saved_bodies();
@@ -305,12 +302,38 @@ void Simulation::reset() {
 void Simulation::set_outside_wrench(std::size_t owner, const OutsideWrench& wrench) { parts_->world.set_outside_wrench(owner, wrench); }
 
 void Simulation::command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity) {
-  parts_->world.command(owner, parts_->time, velocity, angular_velocity);
+  Parts& parts = *parts_;
+  const CommandCase& limits = owner == 0 ? parts.scene.tank.rigid.command : parts.scene.bodies.at(owner - 1).rigid.command;
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const double speed = std::min(velocity.norm(), limits.greatest_speed.value_or(unlimited)) +
+                       std::min(angular_velocity.norm(), limits.greatest_angular_speed.value_or(unlimited)) * parts.reaches.at(owner);
+  const bool is_eased = owner == 0 && limits.greatest_acceleration;  // of a tank's own speed the water in it feels nothing
+  parts.check_commanded_speed(owner == 0 ? "the tank" : "body '" + parts.scene.bodies[owner - 1].name + "'", is_eased ? 0 : speed);
+  parts.world.command(owner, parts.time, velocity, angular_velocity);
+}
+
+void Simulation::Parts::check_commanded_speed(const std::string& whose, double speed) const {
+  const double most = 0.5 * discretisation.sound_speed;
+  if (speed < most) return;
+  throw Error("a velocity commanded of " + whose + " would be " + number(speed) + " m/s, not below half the speed of sound, " +
+              number(most) + " m/s: it is ignored, and the one before stays");
 }
 
 void Simulation::command_discharge(std::size_t opening, double discharge) { parts_->openings.command(opening, parts_->time, discharge); }
 
-void Simulation::command_joint(std::size_t joint, double value) { parts_->world.command_joint(joint, parts_->time, value); }
+void Simulation::command_joint(std::size_t joint, double value) {
+  Parts& parts = *parts_;
+  if (joint < parts.scene.joints.size() && parts.scene.joints[joint].command) {
+    const JointCase& given = parts.scene.joints[joint];
+    const double most = given.command->greatest_velocity.value_or(std::numeric_limits<double>::infinity());
+    double reach = 0;
+    for (std::size_t b = 0; b < parts.scene.bodies.size(); ++b)
+      if (parts.scene.bodies[b].name == given.child) reach = parts.reaches[b + 1];
+    const double speed = std::min(std::abs(value), most) * (given.type == JointType::hinge ? reach : 1.0);
+    if (given.command->quantity == JointQuantity::velocity) parts.check_commanded_speed("joint '" + given.name + "'", speed);
+  }
+  parts.world.command_joint(joint, parts.time, value);
+}
 
 const std::vector<OpeningState>& Simulation::openings() const { return parts_->openings.states(); }
 
@@ -377,7 +400,7 @@ std::string Simulation::summary() const {
   std::string text;
   const auto line = [&](const std::string& key, const std::string& value) { text += key + ": " + value + "\n"; };
   line("wavetank", version());
-  line("case", parts.scene.title);
+  line("case", visible_text(parts.scene.title));
   line("device", device_description());
   line("particles", std::to_string(count) + ", spacing " + number(d.spacing) + " m, smoothing length " + number(d.smoothing_length) +
                         " m, support " + number(d.support / d.spacing) + " spacings");

@@ -40,12 +40,16 @@ struct Simulation::Parts {
   void step_on();
   /// Throws Violation for a step that the simulation may not go on from.
   void check(const StepReport& report);
+  /// The same of the first forces, before any step.
+  void check_start();
   /// Throws Violation where particles lie upon each other instead of filling their volume.
   void check_volume();
   /// Says once that the water is fast beside its sound.
   void tell_of_speed(double greatest);
   /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
   double loading_seconds();
+  /// Throws Error for a commanded speed, m/s, that the water's sound cannot follow.
+  void check_commanded_speed(const std::string& whose, double speed) const;
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.
   void check_bodies();
   std::string when() const;  ///< for messages

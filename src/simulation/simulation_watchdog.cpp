@@ -25,6 +25,14 @@ void Simulation::Parts::check(const StepReport& r) {
   check_bodies();
 }
 
+void Simulation::Parts::check_start() {
+  try {
+    check(report);
+  } catch (const Violation& violation) {
+    throw Violation("before the start (numerics/packing/settling is " + number(scene.numerics.packing.settling) + "): " + violation.what());
+  }
+}
+
 void Simulation::Parts::tell_of_speed(double greatest) {
   constexpr double most = 0.15;  // Mach number: densities then change by about its square
   const double mach = greatest / discretisation.sound_speed;

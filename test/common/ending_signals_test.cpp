@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM are heard by a thread of ours, whoever puts a handler in place of ours meanwhile.
+// Ctrl-C, SIGTERM and others are heard by a thread of ours, whoever puts a handler in place of ours meanwhile.
 #include "wavetank/common/ending_signals.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::atomic<int> foreign_calls{0};
 extern "C" void foreign_handler(int) { ++foreign_calls; }
 
 TEST(EndingSignals, AreHeardThoughALibraryInstallsAHandlerAndThreadsRun) {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     std::promise<int> heard;
     std::promise<void> enough;
     {
@@ -46,7 +46,7 @@ TEST(EndingSignals, AreLeftAsTheyWere) {
     EndingSignals signals([](int) {});
   }
   pthread_sigmask(SIG_SETMASK, nullptr, &after);
-  for (const int number : {SIGINT, SIGTERM}) EXPECT_EQ(sigismember(&after, number), sigismember(&before, number));
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) EXPECT_EQ(sigismember(&after, number), sigismember(&before, number));
   const auto handler = std::signal(SIGINT, foreign_handler);
   std::raise(SIGINT);
   std::signal(SIGINT, handler);
@@ -57,15 +57,32 @@ TEST(EndingSignals, AreLeftAsTheyWere) {
 void interrupt_twice() {
   std::promise<void> heard;
   EndingSignals signals([&](int) { heard.set_value(); });
-  kill(getpid(), SIGINT);
-  heard.get_future().wait();
   kill(getpid(), SIGTERM);
+  heard.get_future().wait();
+  for (const int number : {SIGTERM, SIGHUP, SIGTERM}) {  // change nothing: the end is under way
+    kill(getpid(), number);
+    std::this_thread::sleep_for(100ms);
+  }
+  std::fputs("still here", stderr);
+  kill(getpid(), SIGINT);
   std::this_thread::sleep_for(10s);
 }
 
-TEST(EndingSignalsDeathTest, ASecondOneEndsTheProcessAtOnce) {
+TEST(EndingSignalsDeathTest, OfThoseThatFollowCtrlCAloneEndsTheProcessAtOnce) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(interrupt_twice(), testing::KilledBySignal(SIGINT), "still here");
+}
+
+TEST(EndingSignals, LeaveAHangupThatIsIgnored) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  {
+    std::atomic<int> heard{0};
+    EndingSignals signals([&](int) { ++heard; });
+    kill(getpid(), SIGHUP);
+    std::this_thread::sleep_for(100ms);
+    EXPECT_EQ(heard, 0);
+  }
+  std::signal(SIGHUP, before);
 }
 
 }  // namespace

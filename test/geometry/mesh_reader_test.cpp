@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -252,6 +254,59 @@ TEST_F(MeshReader, RefusesStlTextsInPlainWords) {
   refuses("a picture of a cube", "it is no STL");
   refuses(stl_binary("solid", 0).substr(0, 300), "as a binary STL it announces 12 triangles, but it ends after 4");
   EXPECT_ERROR(read(source(write("none.stl", "solid a\nendsolid a\n"))), "none.stl' has no triangles");
+}
+
+TEST_F(MeshReader, ReadsEveryDialectOfPly) {
+  const std::string head =
+      "comment by hand\nelement vertex 4\nproperty float32 x\nproperty double y\nproperty short z\nproperty uchar red\n";
+  const std::string faces = "element face 1\nproperty list uchar uint vertex_index\nproperty float quality\nend_header\n";
+  const std::string square = "ply\nformat ascii 1.0\n" + head + faces + "0 0 0 255\n2 0 0 7\n2 1 0 7\n0 1 0 7\n4 0 1 2 3 0.5\n";
+  EXPECT_NEAR(surface_area(read(source(write("t.ply", square)))), 2.0, 1e-12);
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+  const std::string strip = "ply\nformat ascii 1.0\n" + head + strips + "0 0 0 255\n2 0 0 7\n0 1 0 7\n2 1 0 7\n5 0 1 2 3 -1\n";
+  const TriangleMesh two = read(source(write("s.ply", strip)));
+  ASSERT_EQ(two.triangles.size(), 2u);
+  for (std::size_t t = 0; t < 2; ++t)
+    EXPECT_GT((two.corner(t, 1) - two.corner(t, 0)).cross(two.corner(t, 2) - two.corner(t, 0)).z(), 0) << t;
+}
+
+TEST_F(MeshReader, RefusesPlyTextsInPlainWords) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n", places = "0 0 0\n1 0 0\n0 1 0\n";
+  const auto refuses = [&](const std::string& text, const std::string& why) {
+    EXPECT_ERROR(read(source(write("t.ply", text))), "t.ply' cannot be read: " + why);
+  };
+  refuses(head + faces + places + "3 0 1 3\n", "line 13: face 0 names vertex 3, which does not exist: there are 3");
+  refuses(head + faces + places + "3 0 1 1.5\n", "line 13: face 0 names vertex 1.5");
+  refuses(head + faces + places + "9999 0 1 2\n", "line 13: face 0 has a list of 9999, which the rest of the file does not hold");
+  refuses(head + faces + "0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n", "line 11: vertex 1 has 'nan'");
+  refuses(head + faces + "0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "line 11: vertex 1 has 'x'");
+  refuses(head + faces + places, "line 13: it ends within face 0");
+  refuses("ply\nformat ascii 1.0\nelement vertex 1e9\n", "line 3: element vertex counts '1e9'; it must be a whole number");
+  refuses("ply\nformat ascii 1.0\nelement face 3\nend_header\n1 2 3\n", "line 5: element face has no properties");
+  refuses("ply\nproperty list float int vertex_indices\n", "line 2: a property stands before the first element");
+  refuses("ply\nformat utf16 1.0\n", "line 2: its format is 'utf16'");
+  refuses(head + "end_header\n" + places, "line 10: it has no element face");
+  refuses("solid a\n", "line 1: it does not begin with ply");
+}
+
+// Names of nodes and materials come through the process that reads them.
+TEST_F(MeshReader, KeepsPartsThroughTheReadersProcess) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng left\nf 1 2 3\ng right\nf 1 3 4\n";
+  const TriangleMesh mesh = read_mesh(source(write("t.obj", obj)), "", ResourceResolver(), {"right"});
+  const auto part = std::find_if(mesh.parts.begin(), mesh.parts.end(), [](const MeshPart& p) { return p.name == "right"; });
+  ASSERT_NE(part, mesh.parts.end());
+  ASSERT_EQ(part->triangles.size(), 1u);
+  EXPECT_EQ(part->triangles[0][2], Vector3d(0, 1, 0));
+}
+
+TEST_F(MeshReader, RefusesAFaceOfTooManyCorners) {
+  std::string obj, face = "f";
+  for (int k = 1; k <= 5000; ++k) {
+    obj += "v " + std::to_string(std::cos(k * 0.00125663706)) + " " + std::to_string(std::sin(k * 0.00125663706)) + " 0\n";
+    face += " " + std::to_string(k);
+  }
+  EXPECT_ERROR(read(source(write("t.obj", obj + face + "\n"))), "face 0 has 5000 corners; 4096 at most are allowed");
 }
 
 TEST_F(MeshReader, RefusesAPlyThatEndsInItsHeader) {

@@ -298,6 +298,8 @@ class Bodies(unittest.TestCase):
         for _ in range(20):
             self.push.publish(wrench(math.nan))
             self.push.publish(wrench(-math.inf))
+            self.push.publish(wrench(1e308))  # finite, but beyond reason; so are those of 1e5 N on 12 kg
+            self.push.publish(wrench(1e5))
             time.sleep(0.01)
         self.assertGreater(self.acceleration(0.02), 0.5 * pushed, "the wrench before stays")
         time.sleep(1.0)  # a topic is warned about once a second

@@ -192,9 +192,30 @@ class NodeEndings(unittest.TestCase):
         node = self.start("linked", case_file=CASE, duration=2.0, fluid=fluid, bodies=[], snapshot_directory=self.folder, bag="")
         code, output = self.wait_for_end(node)
         self.assertEqual(code, 3, output)
-        self.assertIn("a link", output)
+        self.assertIn("linked_failure.1.snapshot", output)
+        self.assertTrue(os.path.islink(self.path("linked_failure.snapshot")))
         with open(self.path("precious")) as file:
             self.assertEqual(file.read(), "kept")
+
+    def test_a_violation_during_the_start_is_one_too(self):
+        bodies = [{"name": "top", "box": {"min": [0.1, -0.1, 0.25], "max": [0.2, 0.1, 0.3]}, "motion": "free", "density": 500.0, "angular_velocity": [0, 1e5, 0]}]
+        node = self.start("spinning", case_file=CASE, bodies=bodies, snapshot_directory=self.folder, bag=self.path("a.bag"))
+        code, output = self.wait_for_end(node)
+        self.assertEqual(code, 3, output)
+        self.assertIn("before the start", output)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_sighup_and_sigterm_end_it_as_ctrl_c_does(self):
+        for number in (signal.SIGHUP, signal.SIGTERM):
+            node = self.start("ended", case_file=CASE, duration=1000.0, bag=self.path("a.bag"))
+            rospy.wait_for_message("/ended/probes", ProbeArray, 60.0)
+            for _ in range(3):
+                node.send_signal(number)
+            code, output = self.wait_for_end(node)
+            self.assertEqual(code, 0, output)
+            self.assertEqual(os.listdir(self.folder), ["a.bag"])
+            found = self.stamps(self.path("a.bag"), "/ended/probes")
+            self.assertEqual(found, [i * 1000000 for i in range(len(found))])
 
     def test_a_dead_master_silences_nothing(self):
         with socket.socket() as probe:

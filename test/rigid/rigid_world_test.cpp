@@ -108,6 +108,23 @@ TEST(RigidWorld, RefusesWrenchesAndCommandsThatDoNotFit) {
   says(error_of([&] { run.world.command(1, 0, Vector3d::Zero(), Vector3d::Zero()); }), "body 'brick' is not commanded");
   wrench.force.x() = std::numeric_limits<double>::infinity();
   says(error_of([&] { run.world.set_outside_wrench(1, wrench); }), "body 'brick' is not finite");
+  for (const double force : {1e308, 1e10, 1.01 * RigidWorld::greatest_acceleration * run.world.properties(1).mass}) {
+    wrench.force.x() = force;
+    says(error_of([&] { run.world.set_outside_wrench(1, wrench); }), "beyond 1000 m/s²");
+  }
+  wrench.force.x() = 0.99 * RigidWorld::greatest_acceleration * run.world.properties(1).mass;
+  run.world.set_outside_wrench(1, wrench);
+  for (const bool turns : {true, false}) {
+    wrench = {};
+    wrench.turns_with_body = turns;
+    wrench.torque.z() = 1e200;
+    says(error_of([&] { run.world.set_outside_wrench(1, wrench); }), "beyond 1000 m/s²");
+    const MassProperties& body = run.world.properties(1);  // at its radius of gyration
+    wrench.torque.z() = 1.01 * RigidWorld::greatest_acceleration * std::sqrt(body.inertia(2, 2) * body.mass);
+    says(error_of([&] { run.world.set_outside_wrench(1, wrench); }), "beyond 1000 m/s²");
+    wrench.torque.z() *= 0.98;
+    run.world.set_outside_wrench(1, wrench);
+  }
   says(error_of([&] { run.world.command(2, 0, Vector3d(0, std::nan(""), 0), Vector3d::Zero()); }), "body 'rover' is not finite");
   says(error_of([&] { run.world.restore(std::vector<char>(7)); }), "not of this case's bodies");
   says(error_of([&] { run.world.advance(0, -1e-3, run.none); }), "-0.001 s");

@@ -46,7 +46,22 @@ double farthest(Simulation& simulation, int steps) {
   return farthest;
 }
 
-class Jump : public SimulationTest {};
+class Jump : public SimulationTest {
+ protected:
+  /// At rest, and from 20 ms on at a speed, m/s.
+  Case bar_with_record(double speed) const {
+    Case scene = bar_over_pool();
+    scene.bodies[0].motion = Motion::prescribed;
+    std::string record = "time,surge\n";
+    for (int k = 0; k <= 400; ++k) {
+      const double time = 1e-4 * k;
+      record += std::to_string(time) + "," + std::to_string(std::max(time - 0.02, 0.0) * speed) + "\n";
+    }
+    write(path("jump.csv"), record);
+    scene.bodies[0].rigid.prescribed.records = {RecordCase{path("jump.csv"), "time", "surge", {}, 1, 0}};
+    return scene;
+  }
+};
 
 TEST_F(Jump, OfACommandedVelocity) {
   Simulation simulation(commanded_bar());
@@ -81,16 +96,7 @@ TEST_F(Jump, OfACommandThatASnapshotHas) {
 }
 
 TEST_F(Jump, InARecord) {
-  Case scene = bar_over_pool();
-  scene.bodies[0].motion = Motion::prescribed;
-  std::string record = "time,surge\n";
-  for (int k = 0; k <= 400; ++k) {  // at rest, and from 20 ms on at 8 m/s
-    const double time = 1e-4 * k;
-    record += std::to_string(time) + "," + std::to_string(std::max(time - 0.02, 0.0) * 8) + "\n";
-  }
-  write(path("jump.csv"), record);
-  scene.bodies[0].rigid.prescribed.records = {RecordCase{path("jump.csv"), "time", "surge", {}, 1, 0}};
-  Simulation simulation(scene);
+  Simulation simulation(bar_with_record(8));
   double most_moved = 0;
   while (simulation.state().time < 0.03) most_moved = std::max(most_moved, farthest(simulation, 1));
   EXPECT_LT(most_moved, most);
@@ -99,18 +105,38 @@ TEST_F(Jump, InARecord) {
 
 // One so fast that the step would have no length.
 TEST_F(Jump, BeyondAllReasonStopsTheRun) {
-  Simulation simulation(commanded_bar());
-  simulation.advance();
-  simulation.command(1, Vector3d(1e6, 0, 0), Vector3d::Zero());
+  Case scene = bar_over_pool();
+  scene.bodies[0].motion = Motion::prescribed;
+  RampCase ramp;
+  ramp.direction = Direction::surge;
+  ramp.change = 1000;
+  ramp.from = 0.02;
+  ramp.to = 0.02001;
+  scene.bodies[0].rigid.prescribed.ramps = {ramp};
+  Simulation simulation(scene);
   std::string message;
   try {
-    simulation.advance();
+    while (simulation.state().time < 0.03) simulation.advance();
   } catch (const Violation& violation) {
     message = violation.what();
   }
   std::printf("%s\n", message.c_str());
   EXPECT_NE(message.find("a body jumps"), std::string::npos);
-  EXPECT_NE(message.find("step 1: the simulation stops"), std::string::npos);
+  EXPECT_NE(message.find(": the simulation stops"), std::string::npos);
+}
+
+TEST_F(Jump, ACommandBeyondReasonIsIgnoredAndTheOneBeforeStays) {
+  Simulation simulation(commanded_bar());
+  simulation.command(1, Vector3d(3, 0, 0), Vector3d::Zero());
+  simulation.advance();
+  for (const double speed : {1e308, 1e6, 0.5 * sound_speed}) {
+    EXPECT_NE(error_of([&] { simulation.command(1, Vector3d(speed, 0, 0), Vector3d::Zero()); }).find("below half the speed of sound"),
+              std::string::npos);
+    EXPECT_NE(error_of([&] { simulation.command(1, Vector3d::Zero(), Vector3d(0, speed / 0.2, 0)); }).find("body 'bar'"),
+              std::string::npos);
+  }
+  simulation.advance();
+  EXPECT_EQ(simulation.bodies().state(1).velocity, Vector3d(3, 0, 0));
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <ros/ros.h>
 
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
 #include <vector>
 
 #include "wavetank/node/body_inbox.h"
@@ -28,7 +32,23 @@ class BodyInputs {
   template <class Message, class Take>
   void listen(ros::NodeHandle& private_handle, const std::string& topic, Take take);
 
+  /// Warns about one topic at most every second of wall time: the simulated may stand still, and a faulty sender sends often.
+  class Warnings {
+   public:
+    void warn(const std::string& topic, const std::string& what);
+
+   private:
+    std::mutex mutex_;
+    std::map<std::string, std::chrono::steady_clock::time_point> due_;
+  };
+  /// Full names, by owner, opening and joint.
+  struct Topics {
+    std::vector<std::string> owners, discharges, joints;
+  };
+
   double wrench_timeout_;
+  Warnings warnings_;
+  Topics topics_;
   BodyInbox inbox_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -43,7 +43,7 @@ class Progress {
   bool bar_is_drawn_ = false;
 };
 
-/// "850 ms", "12.3 s", "4 min 10 s", "2 h 05 min".
+/// "850 ms", "12.3 s", "4 min 10 s", "2 h 05 min", "3.17 years".
 std::string duration_text(double seconds);
 
 }  // namespace wavetank

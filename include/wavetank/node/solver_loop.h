@@ -23,6 +23,7 @@ struct LoopStatus {
   bool paused = false;
   double start_progress = 0;  ///< 0…1
   bool has_started = false;   ///< the case is laid out, and a snapshot restored: what fails from then on is the simulation
+  bool is_violation = false;  ///< the watchdog stopped it, before the start or after
   std::string failure;        ///< why the phase is failed
   SolverState solver;
   EnergySample energies;
@@ -47,7 +48,7 @@ struct LoopHooks {
 
 struct LoopSettings {
   std::string restore_from;         ///< snapshot to go on from; empty = start at time 0
-  std::string failure_snapshot;     ///< written when the simulation fails after its start; empty = none
+  std::string failure_snapshot;     ///< written when the simulation fails after its start; empty = none. No file is replaced: see free_path
   std::function<bool()> may_start;  ///< the first step waits until this is true; empty = at once
   bool paused = false;              ///< at the start
 };

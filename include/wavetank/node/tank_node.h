@@ -59,6 +59,7 @@ class TankNode {
   void note_clock(const LoopStatus& status);
   bool everything_is_heard();
   std::string snapshot_path(const std::string& what) const;
+  std::string path_to_save(double time);
   void every_second();
   void measure_rates(const LoopStatus& status);
   void fill_diagnostics(diagnostic_updater::DiagnosticStatusWrapper& report);
@@ -79,6 +80,7 @@ class TankNode {
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<ClockNote> clock_note_;  ///< where /clock is published
   std::unique_ptr<RunRecorder> recorder_;
+  std::map<std::string, std::string> saved_;  ///< paths that ~save has written, by those that it would have liked
   Clock::time_point clock_due_;
   Clock::time_point subscribers_due_;  ///< when the first step is taken at the latest
   bool all_heard_ = false;

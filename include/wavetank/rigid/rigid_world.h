@@ -51,6 +51,10 @@ struct MooringState {
 /// contacts.
 class RigidWorld {
  public:
+  /// Of what a wrench from outside or a joint's effort alone may make of a free body, m/s²: a hundred times gravity. Angular accelerations
+  /// count at the body's radius of gyration.
+  static constexpr double greatest_acceleration = 1000;
+
   /// Makes nothing of Bullet's where no body is free. Throws Error for mass properties that cannot be, prescribed motions that cannot be
   /// read, joints and moorings that do not fit, and free bodies that start wholly outside of the tank. Says once, through the log, where a
   /// collision shape is an approximation and by how much, how deep bodies overlap at the start, and which of them have no floor under them.
@@ -76,13 +80,13 @@ class RigidWorld {
   /// Throws Error, naming body and time, for a load that is not finite.
   void advance(double time, double time_step, const std::vector<RigidLoad>& fluid);
 
-  /// Throws Error for a body that is not free, or a value that is not finite.
+  /// Throws Error for a body that is not free, a value that is not finite, and one beyond greatest_acceleration.
   void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
   /// Throws Error for a body that is not commanded, or a value that is not finite. In the body's axes.
   void command(std::size_t owner, double time, const Vector3d& velocity, const Vector3d& angular_velocity);
 
-  /// Of an effort (N or N·m) or a velocity (m/s or rad/s) of a joint that is commanded. Throws Error for one that is not, or a value that
-  /// is not finite.
+  /// Of an effort (N or N·m) or a velocity (m/s or rad/s) of a joint that is commanded. Throws Error for one that is not, a value that
+  /// is not finite, and an effort beyond greatest_acceleration.
   void command_joint(std::size_t joint, double time, double value);
   /// At present, of the tank and then of the bodies, in the case's order.
   std::vector<MooringState> moorings() const;

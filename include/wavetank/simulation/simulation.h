@@ -111,15 +111,17 @@ class Simulation {
   void advance();
   Samples take_samples();
 
-  /// On a free body (owner 1 + i) from the next step on. Throws Error for a body that is not free, or a value that is not finite.
+  /// On a free body (owner 1 + i) from the next step on. Throws Error for a body that is not free, a value that is not finite, and one that
+  /// alone would accelerate it beyond RigidWorld::greatest_acceleration; the wrench before stays.
   void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
-  /// Of a commanded body or tank (owner 0), in its own axes, from the next step on. Throws Error as set_outside_wrench.
+  /// Of a commanded body or tank (owner 0), in its own axes, from the next step on. Throws Error for one that is not commanded, a value
+  /// that is not finite, and a speed of any of its points of half the speed of sound and more; the command before stays.
   void command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity);
   /// Of a commanded opening, m³/s (2-D: m²/s), from the next step on. Throws Error for an opening that is not commanded, and for a value
   /// that is not finite, negative, or faster than a tenth of the speed of sound.
   void command_discharge(std::size_t opening, double discharge);
-  /// Of a joint that is commanded, N, N·m, m/s or rad/s, from the next step on. Throws Error for one that is not, and for a value that is
-  /// not finite.
+  /// Of a joint that is commanded, N, N·m, m/s or rad/s, from the next step on. Throws Error for one that is not, for a value that is
+  /// not finite, and for one beyond reason, as set_outside_wrench and command have it.
   void command_joint(std::size_t joint, double value);
   const std::vector<OpeningState>& openings() const;  ///< in the case's order
   const RigidWorld& bodies() const;

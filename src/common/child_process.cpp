@@ -1,0 +1,150 @@
+#include "wavetank/common/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+using ChildClock = std::chrono::steady_clock;
+
+// What a child says first.
+constexpr char did_it = 'd', refused_it = 'r', had_no_memory = 'm';
+
+/// Bytes of address space that this process has.
+std::uint64_t present_memory() {
+  unsigned long long pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
+  std::fclose(file);
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void lower_limit(__rlimit_resource resource, rlim_t wanted) {
+  rlimit limit;
+  if (getrlimit(resource, &limit) != 0) return;
+  limit.rlim_cur = std::min(wanted, limit.rlim_cur);
+  setrlimit(resource, &limit);
+}
+
+void tell(int pipe_end, char first, const std::string& bytes) {
+  std::string text(1, first);
+  text += bytes;
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t written = write(pipe_end, text.data() + at, text.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    at += static_cast<std::size_t>(written);
+  }
+}
+
+/// Of the child: its limits, and nothing heard of it but by the pipe.
+void settle_in(pid_t parent, const ChildLimits& limits) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTRAP, SIGPROF, SIGPIPE}) std::signal(number, SIG_DFL);
+  sigset_t heard;
+  sigemptyset(&heard);
+  sigaddset(&heard, SIGPROF);
+  pthread_sigmask(SIG_UNBLOCK, &heard, nullptr);
+  const int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) {
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+  }
+  lower_limit(RLIMIT_CORE, 0);
+  lower_limit(RLIMIT_AS, present_memory() + limits.memory);
+  lower_limit(RLIMIT_STACK, 64u << 20);
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(limits.processor_seconds);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (limits.processor_seconds - std::floor(limits.processor_seconds)));
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+[[noreturn]] void be_the_child(int pipe_end, pid_t parent, const std::function<std::string()>& work, const ChildLimits& limits) {
+  settle_in(parent, limits);
+  try {
+    tell(pipe_end, did_it, work());
+  } catch (const std::bad_alloc&) {
+    tell(pipe_end, had_no_memory, "");
+  } catch (const std::exception& failure) {
+    tell(pipe_end, refused_it, failure.what());
+  } catch (...) {
+    tell(pipe_end, refused_it, "an error without a name");
+  }
+  _exit(0);  // without what others have asked to be done at the end of this process
+}
+
+/// All that the child says; false where its time is up before it has ended.
+bool hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
+  char block[65536];
+  while (true) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - ChildClock::now()).count();
+    if (left <= 0) return false;
+    pollfd awaited{pipe_end, POLLIN, 0};
+    const int ready = poll(&awaited, 1, static_cast<int>(std::min<long long>(left, 1000000)));
+    if (ready < 0 && errno != EINTR) return false;
+    if (ready <= 0) continue;
+    const ssize_t length = read(pipe_end, block, sizeof block);
+    if (length < 0 && errno == EINTR) continue;
+    if (length <= 0) return true;
+    bytes.append(block, static_cast<std::size_t>(length));
+  }
+}
+
+ChildResult result_of(int status, const std::string& said) {
+  using End = ChildResult::End;
+  if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    if (number == SIGPROF || number == SIGKILL || number == SIGXCPU) return {End::out_of_time, ""};
+    return {End::crashed, strsignal(number)};
+  }
+  if (said.empty()) return {End::crashed, "exit without a word"};
+  const std::string rest = said.substr(1);
+  if (said[0] == did_it) return {End::done, rest};
+  return said[0] == had_no_memory ? ChildResult{End::out_of_memory, ""} : ChildResult{End::refused, rest};
+}
+
+}  // namespace
+
+ChildResult run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe to a process of its own: ") + std::strerror(errno));
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    be_the_child(ends[1], parent, work, limits);
+  }
+  const int problem = errno;
+  close(ends[1]);
+  if (child < 0) {
+    close(ends[0]);
+    throw Error(std::string("no process of its own can be started: ") + std::strerror(problem));
+  }
+  std::string said;
+  const auto end = ChildClock::now() + std::chrono::duration_cast<ChildClock::duration>(std::chrono::duration<double>(limits.seconds));
+  if (!hear(ends[0], end, said)) kill(child, SIGKILL);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return result_of(status, said);
+}
+
+}  // namespace wavetank
