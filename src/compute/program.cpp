@@ -26,6 +26,12 @@ std::string cache_directory_for(const DeviceInfo& device) {
   return keeps_its_own && std::getenv("WAVETANK_CACHE_DIRECTORY") == nullptr ? "" : cache_directory();
 }
 
+/// What WAVETANK_BUILD_OPTIONS adds, such as -cl-opt-disable for short runs, of which compiling is most.
+std::string with_own_options(const std::string& options) {
+  const char* own = std::getenv("WAVETANK_BUILD_OPTIONS");
+  return own == nullptr || *own == '\0' ? options : options + " " + own;
+}
+
 std::string build_log(cl_program program, cl_device_id device) {
   std::size_t size = 0;
   if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
@@ -41,7 +47,7 @@ Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& sour
       main(main_file),
       source(resolve_includes(sources, main)),
       files(sources),
-      options(options_that_matter(given, source)) {}
+      options(with_own_options(options_that_matter(given, source))) {}
 
 Program::State::~State() {
   if (handle != nullptr) clReleaseProgram(handle);
