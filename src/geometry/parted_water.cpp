@@ -30,7 +30,7 @@ void visit_filled_neighbours(const FilledRegion& region, std::size_t c, Visit vi
 /// Filled cells joined by steps that cross no wall, the most first.
 std::vector<std::vector<std::size_t>> joined_cells(const Basin& basin, const FilledRegion& region) {
   std::vector<std::vector<std::size_t>> groups;
-  std::vector<char> seen(region.filled.size(), 0);
+  std::vector<bool> seen(region.filled.size());
   for (std::size_t c = 0; c < seen.size(); ++c) {
     if (!region.filled[c] || seen[c]) continue;
     seen[c] = 1;
