@@ -33,13 +33,13 @@ std::vector<std::vector<std::size_t>> joined_cells(const Basin& basin, const Fil
   std::vector<bool> seen(region.filled.size());
   for (std::size_t c = 0; c < seen.size(); ++c) {
     if (!region.filled[c] || seen[c]) continue;
-    seen[c] = 1;
+    seen[c] = true;
     std::vector<std::size_t> group(1, c);
     for (std::size_t next = 0; next < group.size(); ++next) {
       const std::size_t from = group[next];
       visit_filled_neighbours(region, from, [&](std::size_t to) {
         if (seen[to] || basin.grid->crosses(region.position[from], region.position[to])) return;
-        seen[to] = 1;
+        seen[to] = true;
         group.push_back(to);
       });
     }
