@@ -30,7 +30,7 @@ struct HeightMap {
 struct WaterSurface {
   double time = 0;                            ///< s
   std::vector<Eigen::Vector3f> vertices;      ///< m, in the case's coordinates
-  std::vector<std::array<int, 3>> triangles;  ///< anticlockwise seen from outside of the water; each edge has two
+  std::vector<std::array<int, 3>> triangles;  ///< anticlockwise seen from outside of the water; closed
   std::vector<Eigen::Vector3f> spray;         ///< m, particles that are not within it
   HeightMap heights;
 };
