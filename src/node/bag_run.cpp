@@ -117,6 +117,7 @@ void BagRun::step_to_the_end() {
       simulation_->advance();
     } catch (const Violation& violation) {
       violation_ = violation.what();  // which counts whatever becomes of the bag
+      if (recorder_) recorder_->draw_no_more();
     }
     write_samples();
     if (!violation_.empty()) return;

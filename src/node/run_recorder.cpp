@@ -45,7 +45,7 @@ void RunRecorder::record(const Simulation& simulation, const std::vector<EnergyS
   }
   if ((pictures_.clouds || pictures_.particles) && time >= next_cloud_ - rounding) record_cloud(simulation);
   if (!pictures_.surface) return;
-  if (time >= next_surface_ - rounding) record_surface(simulation);
+  if (is_drawing_ && time >= next_surface_ - rounding) record_surface(simulation);
   write_surfaces();
 }
 

@@ -127,6 +127,7 @@ void SolverLoop::advance() {
   try {
     simulation_->advance();
   } catch (const Violation&) {
+    if (hooks_.violated) hooks_.violated();
     pass_on_samples();
     throw;
   }

@@ -160,6 +160,9 @@ LoopHooks TankNode::make_hooks() {
   LoopHooks hooks;
   hooks.started = [this](const Simulation& simulation) { started(simulation); };
   hooks.stepped = [this](const Simulation& simulation, const Samples& samples) { stepped(simulation, samples); };
+  hooks.violated = [this] {
+    if (recorder_) recorder_->draw_no_more();
+  };
   hooks.before_step = [this](Simulation& simulation) { inputs_.apply(simulation); };
   hooks.restarted = [this](const SolverState& last) {
     inputs_.clear();

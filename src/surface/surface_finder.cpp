@@ -26,9 +26,12 @@ constexpr double between_layers = 0.3;
 /// in spacings².
 constexpr double blur_of_contour = 0.2;
 
+/// Of a few bytes each.
+constexpr double most_blocks = 2e8;
+
 float value_of(float filling, float walls) { return std::clamp(std::min(filling - half_full, slope * walls), dry, -dry); }
 
-/// Where the particles are, by blocks of two nodes along each direction.
+/// Where the particles are, by blocks of two nodes along each direction. All are finite, and not far away.
 class Blocks {
  public:
   Blocks(const std::vector<Eigen::Vector3f>& particles, const NodeGrid& grid, int dimensions) : flat_(dimensions == 2) {
@@ -48,10 +51,13 @@ class Blocks {
       blocks.push_back(block);
     }
     if (particles.empty()) return;
+    double count = 1;
     for (int axis = 0; axis < 3; ++axis) {  // a border of one block
       first_[axis] -= is_flat(axis) ? 0 : 1;
       size_[axis] = last[axis] - first_[axis] + (is_flat(axis) ? 1 : 2);
+      count *= size_[axis];
     }
+    if (count > most_blocks) throw Error("the water lies too far apart for a surface: raise fluid/spacing");
     counts_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], 0);
     for (const Node& block : blocks) ++counts_[index({block[0] - first_[0], block[1] - first_[1], block[2] - first_[2]})];
   }
@@ -101,6 +107,7 @@ bool can_find_surface() { return can_contour(); }
 struct SurfaceFinder::Parts {
   explicit Parts(const Simulation& simulation);
 
+  void leave_out_lost(std::vector<Eigen::Vector3f>& particles) const;
   /// In spacings, of all walls where they are now.
   float to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const;
   std::vector<std::optional<RigidState>> moved_owners(const RigidWorld& world) const;
@@ -114,6 +121,7 @@ struct SurfaceFinder::Parts {
   double blur;  ///< variance of the kernel along an axis, with what the contour adds, spacings²
   Top top;
   Box domain;
+  Box reach;  ///< of the solver's grid, and a margin: what is farther away is lost
   NodeGrid grid;
   std::vector<bool> moving;
   std::vector<Vector3d> references;
@@ -131,12 +139,23 @@ SurfaceFinder::Parts::Parts(const Simulation& simulation)
   grid.cell = layout.spacing;
   grid.origin = domain.min + Vector3d::Constant(0.5 * grid.cell);  // walls along the axes lie between nodes
   if (dimensions == 2) grid.origin.y() = 0;
+  reach = with_pockets(domain, layout.openings, dimensions);
+  (top.way > 0 ? reach.max : reach.min)[top.axis] += top.way * (domain.max[top.axis] - domain.min[top.axis]);
+  reach.min.array() -= WallDistances::reach * grid.cell;
+  reach.max.array() += WallDistances::reach * grid.cell;
   moving = layout.moving;
   for (int axis = 0; axis < 3; ++axis) periodic[axis] = simulation.scene().tank.periodic[axis];
   for (std::size_t o = 0; o < simulation.bodies().count(); ++o) {
     references.push_back(simulation.bodies().reference(o));
     walls.push_back(std::make_unique<WallDistances>(layout.facets, static_cast<int>(o), dimensions, grid));
   }
+}
+
+/// Those beyond the solver's grid, also where a coordinate is not finite.
+void SurfaceFinder::Parts::leave_out_lost(std::vector<Eigen::Vector3f>& particles) const {
+  const Eigen::Array3f least = reach.min.cast<float>(), most = reach.max.cast<float>();
+  const auto is_lost = [&](const Eigen::Vector3f& at) { return !((at.array() >= least).all() && (at.array() <= most).all()); };
+  particles.erase(std::remove_if(particles.begin(), particles.end(), is_lost), particles.end());
 }
 
 std::vector<std::optional<RigidState>> SurfaceFinder::Parts::moved_owners(const RigidWorld& world) const {
@@ -280,22 +299,25 @@ WaterField SurfaceFinder::look_at(const Simulation& simulation) const {
   WaterField field;
   field.time = simulation.state().time;
   field.particles = simulation.places();
+  parts.leave_out_lost(field.particles);
   const auto moved = parts.moved_owners(simulation.bodies());
   const Blocks blocks(field.particles, parts.grid, parts.dimensions);
   std::vector<char> is_near(blocks.count()), is_packed(blocks.count());
-  std::vector<std::array<float, 8>> walls(blocks.count());
+  std::vector<std::array<float, 8>> walls;  // of the near ones
   for (int b = 0; b < blocks.count(); ++b) {
     is_near[b] = static_cast<char>(blocks.any_about(b, [&](int other) { return blocks.particles_in(other) > 0; }));
     if (!is_near[b]) continue;
     double room = 0;  // in spacings³, that is not behind walls
     int k = 0;
+    walls.emplace_back();
     blocks.for_nodes(b, [&](const Node& node) {
-      walls[b][k] = parts.to_walls(node, moved);
-      room += std::clamp(walls[b][k] + 0.5, 0.0, 1.0);
+      walls.back()[k] = parts.to_walls(node, moved);
+      room += std::clamp(walls.back()[k] + 0.5, 0.0, 1.0);
       ++k;
     });
     is_packed[b] = static_cast<char>(blocks.particles_in(b) >= least_packed * room);
   }
+  std::size_t near = 0;
   std::vector<std::size_t> asked;
   std::vector<Vector3d> places;
   for (int b = 0; b < blocks.count(); ++b) {
@@ -303,7 +325,7 @@ WaterField SurfaceFinder::look_at(const Simulation& simulation) const {
     const bool is_deep = !blocks.is_border(b) && !blocks.any_about(b, [&](int other) { return is_packed[other] == 0; });
     int k = 0;
     blocks.for_nodes(b, [&](const Node& node) {
-      const float to_walls = walls[b][k++];
+      const float to_walls = walls[near][k++];
       if (to_walls <= -1) return;
       if (!is_deep && to_walls > 0) {
         asked.push_back(field.nodes.size());
@@ -312,6 +334,7 @@ WaterField SurfaceFinder::look_at(const Simulation& simulation) const {
       field.nodes.push_back(node);
       field.walls.push_back(to_walls);
     });
+    ++near;
   }
   field.filling.assign(field.nodes.size(), 1.0F);
   const std::vector<float> filling = places.empty() ? std::vector<float>() : simulation.filling(places);

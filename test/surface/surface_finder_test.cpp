@@ -8,10 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 
+#include "../../src/simulation/snapshot.h"
 #include "../common/box_case.h"
 #include "../common/scratch_directory.h"
+#include "../sph/state_bytes.h"
 
 namespace wavetank {
 namespace {
@@ -206,6 +209,29 @@ TEST_F(SurfaceFinderTest, many_triangles_are_made_fewer) {
   expect_closed(coarse);
   EXPECT_NEAR(volume_of(flat), volume_of(fine), 0.03 * volume_of(fine));  // the tank's edges are cut off
   EXPECT_NEAR(volume_of(coarse), volume_of(fine), 0.15 * volume_of(fine));
+}
+
+/// As a run leaves them that the watchdog stops.
+TEST_F(SurfaceFinderTest, particles_that_are_lost_are_left_out) {
+  const ScratchDirectory scratch;
+  Simulation simulation(still_tank());
+  const WaterSurface before = surface_of(simulation);
+  simulation.save(scratch.file("sound"));
+  Snapshot snapshot = read_snapshot(scratch.file("sound"));
+  StateBytes<float> state(snapshot.fluid, simulation.state().particles);
+  state.set("x", 12, std::numeric_limits<float>::quiet_NaN());
+  state.set("y", 13, std::numeric_limits<float>::infinity());
+  state.set("z", 14, 1e30);
+  state.set("x", 15, -1e4);
+  snapshot.fluid = state.bytes();
+  write_snapshot(scratch.file("lost"), snapshot);
+  simulation.restore(scratch.file("lost"));
+  const SurfaceFinder finder(simulation);
+  const WaterField field = finder.look_at(simulation);
+  EXPECT_EQ(field.particles.size(), simulation.state().particles - 4);
+  const WaterSurface surface = finder.find(field);
+  expect_closed(surface);
+  EXPECT_NEAR(volume_of(surface), volume_of(before), 0.01 * volume_of(before));
 }
 
 TEST_F(SurfaceFinderTest, run_is_the_same_to_the_last_bit) {

@@ -39,6 +39,8 @@ class RunRecorder {
   /// The status at those samples of the energies that it is due at, and the pictures that are due; a surface is
   /// written when it is found. `run`: of this moment.
   void record(const Simulation& simulation, const std::vector<EnergySample>& energies, const RunState& run);
+  /// No surface from now on: the water is no longer fit for one, after a Violation.
+  void draw_no_more() { is_drawing_ = false; }
   /// The simulation is back at time 0.
   void restart() { next_status_ = next_cloud_ = next_surface_ = 0; }
   /// The last status, and the bag gets its name.
@@ -56,6 +58,7 @@ class RunRecorder {
   void write_surfaces();
 
   RecordedPictures pictures_;
+  bool is_drawing_ = true;
   double next_status_ = 0, next_cloud_ = 0, next_surface_ = 0;  ///< s of simulated time
   std::mutex mutex_;
   std::vector<SurfaceMessages> found_;     ///< surfaces that are not written yet

@@ -40,10 +40,11 @@ struct Reply {
 struct LoopHooks {
   std::function<void(const Simulation&)> started;                  ///< once, before the first samples
   std::function<void(const Simulation&, const Samples&)> stepped;  ///< at the start, after each step and after a reset
-  std::function<void(Simulation&)> before_step;                    ///< before each step; empty = nothing to do
-  std::function<void(const SolverState& last)> restarted;          ///< after a reset, before its samples; `last` = the state left
-  std::function<void(const Simulation&)> idle;                     ///< often while there is nothing to step; and after each step
-  std::function<void(const LoopStatus&)> ended;                    ///< once, when no step will follow; may throw
+  std::function<void()> violated;                ///< once, after a step that ended in a Violation, before its samples; may be empty
+  std::function<void(Simulation&)> before_step;  ///< before each step; empty = nothing to do
+  std::function<void(const SolverState& last)> restarted;  ///< after a reset, before its samples; `last` = the state left
+  std::function<void(const Simulation&)> idle;             ///< often while there is nothing to step; and after each step
+  std::function<void(const LoopStatus&)> ended;            ///< once, when no step will follow; may throw
 };
 
 struct LoopSettings {
