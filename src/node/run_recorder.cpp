@@ -47,6 +47,7 @@ void RunRecorder::record(const Simulation& simulation, const std::vector<EnergyS
   if (!pictures_.surface) return;
   if (is_drawing_ && time >= next_surface_ - rounding) record_surface(simulation);
   write_surfaces();
+  check_drawing();
 }
 
 void RunRecorder::record_cloud(const Simulation& simulation) {
@@ -63,6 +64,11 @@ void RunRecorder::record_cloud(const Simulation& simulation) {
 void RunRecorder::record_surface(const Simulation& simulation) {
   next_surface_ += 1.0 / case_.publishing.surface_bag_rate;
   drawer_->draw(simulation);
+}
+
+void RunRecorder::check_drawing() const {
+  const std::string failure = drawer_->failure();
+  if (!failure.empty()) throw BagError("the water's surface cannot be drawn into bag '" + path() + "': " + failure);
 }
 
 void RunRecorder::write_surfaces() {
@@ -83,6 +89,7 @@ void RunRecorder::finish(const SolverState& solver, const EnergySample& energies
     drawer_->wait();
     try {
       write_surfaces();
+      check_drawing();
     } catch (const BagError&) {  // a full disk has no room for the last one, but for the end of the bag
       if (!bag_.is_open()) throw;
     }

@@ -2,9 +2,7 @@
 
 #include <chrono>
 #include <exception>
-#include <string>
-
-#include "wavetank/common/log.h"
+#include <new>
 
 namespace wavetank {
 namespace {
@@ -29,8 +27,17 @@ SurfaceDrawer::~SurfaceDrawer() {
 }
 
 void SurfaceDrawer::draw(const Simulation& simulation) {
-  if (!finder_) finder_ = std::make_unique<SurfaceFinder>(simulation);
   wait();
+  if (!failure().empty()) return;
+  try {
+    look_at(simulation);
+  } catch (const std::exception&) {
+    give_up();
+  }
+}
+
+void SurfaceDrawer::look_at(const Simulation& simulation) {
+  if (!finder_) finder_ = std::make_unique<SurfaceFinder>(simulation);
   const auto began = std::chrono::steady_clock::now();
   WaterField field = finder_->look_at(simulation);
   looking_seconds_ = seconds_since(began);
@@ -39,6 +46,25 @@ void SurfaceDrawer::draw(const Simulation& simulation) {
     field_ = std::move(field);
   }
   changed_.notify_all();
+}
+
+/// While what failed is caught.
+void SurfaceDrawer::give_up() {
+  std::string why;
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    why = "there is not enough memory";
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  failure_ = why;
+}
+
+std::string SurfaceDrawer::failure() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return failure_;
 }
 
 bool SurfaceDrawer::is_idle() const {
@@ -56,6 +82,9 @@ double SurfaceDrawer::seconds() const {
   return looking_seconds_ + finding_seconds_;
 }
 
+/// In the drawer's thread. Nobody changes the field until it is gone.
+void SurfaceDrawer::find() { done_(finder_->find(*field_)); }
+
 void SurfaceDrawer::run() {
   while (true) {
     {
@@ -65,9 +94,9 @@ void SurfaceDrawer::run() {
     }
     const auto began = std::chrono::steady_clock::now();
     try {
-      done_(finder_->find(*field_));  // nobody changes the field until it is gone
-    } catch (const std::exception& error) {
-      log(LogLevel::warning, std::string("a surface of the water could not be found: ") + error.what());
+      find();
+    } catch (const std::exception&) {
+      give_up();
     }
     {
       const std::lock_guard<std::mutex> lock(mutex_);

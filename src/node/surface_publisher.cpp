@@ -1,6 +1,9 @@
 #include "wavetank/node/surface_publisher.h"
 
 #include <algorithm>
+#include <string>
+
+#include "wavetank/common/log.h"
 
 namespace wavetank {
 namespace {
@@ -18,11 +21,17 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& private_handle, const Publis
 
 bool SurfacePublisher::offer(const Simulation& simulation) {
   if (mesh_.getNumSubscribers() == 0 && heights_.getNumSubscribers() == 0) return false;
-  if (!drawer_.is_idle()) return false;
+  if (has_failed_ || !drawer_.is_idle()) return false;
   const double pause = std::max(1.0 / publishing_.surface_rate, drawer_.seconds() / most_of_the_time);
   if (Clock::now() - last_ < std::chrono::duration<double>(pause)) return false;
   last_ = Clock::now();
   drawer_.draw(simulation);
+  const std::string failure = drawer_.failure();
+  if (!failure.empty()) {
+    has_failed_ = true;
+    log(LogLevel::warning, "the water's surface is not drawn any more: " + failure);
+    return false;
+  }
   return true;
 }
 

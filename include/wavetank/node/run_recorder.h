@@ -37,7 +37,8 @@ class RunRecorder {
     bag_.write(topic, stamp, message);
   }
   /// The status at those samples of the energies that it is due at, and the pictures that are due; a surface is
-  /// written when it is found. `run`: of this moment.
+  /// written when it is found. `run`: of this moment. Throws BagError as BagWriter, and where a surface cannot be drawn: the bag is whole
+  /// until then, and finish() still works.
   void record(const Simulation& simulation, const std::vector<EnergySample>& energies, const RunState& run);
   /// No surface from now on: the water is no longer fit for one, after a Violation.
   void draw_no_more() { is_drawing_ = false; }
@@ -56,6 +57,7 @@ class RunRecorder {
   void record_cloud(const Simulation& simulation);
   void record_surface(const Simulation& simulation);
   void write_surfaces();
+  void check_drawing() const;
 
   RecordedPictures pictures_;
   bool is_drawing_ = true;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "wavetank/surface/surface_finder.h"
@@ -22,8 +23,11 @@ class SurfaceDrawer {
   SurfaceDrawer(const SurfaceDrawer&) = delete;
   SurfaceDrawer& operator=(const SurfaceDrawer&) = delete;
 
-  /// Takes what the simulation's surface is found from at present; while it has another one in the making it waits for that.
+  /// Takes what the simulation's surface is found from at present; while it has another one in the making it waits for that. Never throws:
+  /// of what fails here or in the drawer's thread failure() tells, and from then on nothing is drawn.
   void draw(const Simulation& simulation);
+  /// Why nothing is drawn any more; empty while all is well.
+  std::string failure() const;
   bool is_idle() const;
   /// Until it is idle.
   void wait();
@@ -31,6 +35,9 @@ class SurfaceDrawer {
   double seconds() const;
 
  private:
+  void look_at(const Simulation& simulation);
+  void find();
+  void give_up();
   void run();
 
   std::function<void(const WaterSurface&)> done_;
@@ -41,6 +48,7 @@ class SurfaceDrawer {
   std::condition_variable changed_;
   std::optional<WaterField> field_;
   double finding_seconds_ = 0;
+  std::string failure_;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -16,7 +16,8 @@ class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& private_handle, const PublishingCase& publishing, const StampClock& clock);
 
-  /// To be called often by the solver's thread: has a surface drawn when one is due, and says whether it did.
+  /// To be called often by the solver's thread: has a surface drawn when one is due, and says whether it did. Where that fails it is told
+  /// once, as a warning, and none is drawn any more.
   bool offer(const Simulation& simulation);
 
  private:
@@ -27,6 +28,7 @@ class SurfacePublisher {
   const StampClock& clock_;
   ros::Publisher mesh_, heights_;
   Clock::time_point last_;
+  bool has_failed_ = false;
   SurfaceDrawer drawer_;  ///< last: its thread uses all of the above
 };
 
