@@ -17,8 +17,8 @@ RunRecorder::RunRecorder(const std::string& bag, const std::string& topic_prefix
                          RecordedPictures pictures)
     : case_(scene), clock_(clock), bag_(bag, topic_prefix), pictures_(pictures) {
   if (pictures_.surface)
-    drawer_ = std::make_unique<SurfaceDrawer>([this](const WaterSurface& surface) {
-      SurfaceMessages messages = surface_messages(surface, case_.publishing.max_points, case_.publishing.world_frame, clock_);
+    drawer_ = std::make_unique<SurfaceDrawer>([this](const WaterSurface& surface, const ros::Time& stamp) {
+      SurfaceMessages messages = surface_messages(surface, case_.publishing.max_points, case_.publishing.world_frame, stamp);
       const std::lock_guard<std::mutex> lock(mutex_);
       found_.push_back(std::move(messages));
     });
@@ -63,7 +63,7 @@ void RunRecorder::record_cloud(const Simulation& simulation) {
 
 void RunRecorder::record_surface(const Simulation& simulation) {
   next_surface_ += 1.0 / case_.publishing.surface_bag_rate;
-  drawer_->draw(simulation);
+  drawer_->draw(simulation, clock_.at(simulation.state().time));
 }
 
 void RunRecorder::check_drawing() const {

@@ -13,7 +13,7 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
 
 }  // namespace
 
-SurfaceDrawer::SurfaceDrawer(std::function<void(const WaterSurface&)> done) : done_(std::move(done)) {
+SurfaceDrawer::SurfaceDrawer(std::function<void(const WaterSurface&, const ros::Time&)> done) : done_(std::move(done)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -26,17 +26,17 @@ SurfaceDrawer::~SurfaceDrawer() {
   thread_.join();
 }
 
-void SurfaceDrawer::draw(const Simulation& simulation) {
+void SurfaceDrawer::draw(const Simulation& simulation, const ros::Time& stamp) {
   wait();
   if (!failure().empty()) return;
   try {
-    look_at(simulation);
+    look_at(simulation, stamp);
   } catch (const std::exception&) {
     give_up();
   }
 }
 
-void SurfaceDrawer::look_at(const Simulation& simulation) {
+void SurfaceDrawer::look_at(const Simulation& simulation, const ros::Time& stamp) {
   if (!finder_) finder_ = std::make_unique<SurfaceFinder>(simulation);
   const auto began = std::chrono::steady_clock::now();
   WaterField field = finder_->look_at(simulation);
@@ -44,6 +44,8 @@ void SurfaceDrawer::look_at(const Simulation& simulation) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     field_ = std::move(field);
+    stamp_ = stamp;
+    is_dropped_ = false;
   }
   changed_.notify_all();
 }
@@ -67,6 +69,11 @@ std::string SurfaceDrawer::failure() const {
   return failure_;
 }
 
+void SurfaceDrawer::drop() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_dropped_ = true;
+}
+
 bool SurfaceDrawer::is_idle() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return !field_;
@@ -83,7 +90,14 @@ double SurfaceDrawer::seconds() const {
 }
 
 /// In the drawer's thread. Nobody changes the field until it is gone.
-void SurfaceDrawer::find() { done_(finder_->find(*field_)); }
+void SurfaceDrawer::find() {
+  const WaterSurface surface = finder_->find(*field_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_dropped_) return;
+  }
+  done_(surface, stamp_);
+}
 
 void SurfaceDrawer::run() {
   while (true) {

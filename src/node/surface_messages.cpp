@@ -53,9 +53,9 @@ sensor_msgs::Image height_image(const HeightMap& map, const std_msgs::Header& he
 
 }  // namespace
 
-SurfaceMessages surface_messages(const WaterSurface& surface, int max_points, const std::string& frame, const StampClock& clock) {
+SurfaceMessages surface_messages(const WaterSurface& surface, int max_points, const std::string& frame, const ros::Time& stamp) {
   std_msgs::Header header;
-  header.stamp = clock.at(surface.time);
+  header.stamp = stamp;
   header.frame_id = frame;
   SurfaceMessages messages;
   messages.surface = water_marker("surface", visualization_msgs::Marker::TRIANGLE_LIST, 1.0, header);

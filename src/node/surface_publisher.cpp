@@ -17,7 +17,7 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& private_handle, const Publis
       clock_(clock),
       mesh_(private_handle.advertise<visualization_msgs::Marker>(SurfaceMessages::mesh_topic, 2)),
       heights_(private_handle.advertise<sensor_msgs::Image>(SurfaceMessages::height_topic, 1)),
-      drawer_([this](const WaterSurface& surface) { publish(surface); }) {}
+      drawer_([this](const WaterSurface& surface, const ros::Time& stamp) { publish(surface, stamp); }) {}
 
 bool SurfacePublisher::offer(const Simulation& simulation) {
   if (mesh_.getNumSubscribers() == 0 && heights_.getNumSubscribers() == 0) return false;
@@ -25,7 +25,7 @@ bool SurfacePublisher::offer(const Simulation& simulation) {
   const double pause = std::max(1.0 / publishing_.surface_rate, drawer_.seconds() / most_of_the_time);
   if (Clock::now() - last_ < std::chrono::duration<double>(pause)) return false;
   last_ = Clock::now();
-  drawer_.draw(simulation);
+  drawer_.draw(simulation, clock_.at(simulation.state().time));
   const std::string failure = drawer_.failure();
   if (!failure.empty()) {
     has_failed_ = true;
@@ -35,8 +35,8 @@ bool SurfacePublisher::offer(const Simulation& simulation) {
   return true;
 }
 
-void SurfacePublisher::publish(const WaterSurface& surface) const {
-  const SurfaceMessages messages = surface_messages(surface, publishing_.max_points, publishing_.world_frame, clock_);
+void SurfacePublisher::publish(const WaterSurface& surface, const ros::Time& stamp) const {
+  const SurfaceMessages messages = surface_messages(surface, publishing_.max_points, publishing_.world_frame, stamp);
   mesh_.publish(messages.surface);
   mesh_.publish(messages.spray);
   heights_.publish(messages.heights);

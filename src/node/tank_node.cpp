@@ -166,6 +166,7 @@ LoopHooks TankNode::make_hooks() {
   hooks.before_step = [this](Simulation& simulation) { inputs_.apply(simulation); };
   hooks.restarted = [this](const SolverState& last) {
     inputs_.clear();
+    if (surfaces_) surfaces_->restart();
     clock_.restart_after(last.time);
     if (recorder_) recorder_->restart();
     log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");

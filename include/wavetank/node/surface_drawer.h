@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ros/time.h>
+
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -17,7 +19,7 @@ namespace wavetank {
 class SurfaceDrawer {
  public:
   /// `done`: called in the drawer's thread with each surface.
-  explicit SurfaceDrawer(std::function<void(const WaterSurface&)> done);
+  explicit SurfaceDrawer(std::function<void(const WaterSurface&, const ros::Time& stamp)> done);
   /// After the surface in the making.
   ~SurfaceDrawer();
   SurfaceDrawer(const SurfaceDrawer&) = delete;
@@ -25,7 +27,10 @@ class SurfaceDrawer {
 
   /// Takes what the simulation's surface is found from at present; while it has another one in the making it waits for that. Never throws:
   /// of what fails here or in the drawer's thread failure() tells, and from then on nothing is drawn.
-  void draw(const Simulation& simulation);
+  /// `stamp`: handed on with the surface. It is of now: ROS time may start anew before the surface is found.
+  void draw(const Simulation& simulation, const ros::Time& stamp);
+  /// Nobody wants the surface in the making any more: `done` is not called with it, unless that has begun.
+  void drop();
   /// Why nothing is drawn any more; empty while all is well.
   std::string failure() const;
   bool is_idle() const;
@@ -35,18 +40,20 @@ class SurfaceDrawer {
   double seconds() const;
 
  private:
-  void look_at(const Simulation& simulation);
+  void look_at(const Simulation& simulation, const ros::Time& stamp);
   void find();
   void give_up();
   void run();
 
-  std::function<void(const WaterSurface&)> done_;
+  std::function<void(const WaterSurface&, const ros::Time&)> done_;
   std::unique_ptr<SurfaceFinder> finder_;  ///< made when it is first wanted
   double looking_seconds_ = 0;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<WaterField> field_;
+  ros::Time stamp_;  ///< of the field
+  bool is_dropped_ = false;
   double finding_seconds_ = 0;
   std::string failure_;
   bool stopping_ = false;

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <ros/time.h>
 #include <sensor_msgs/Image.h>
 #include <visualization_msgs/Marker.h>
 
 #include <string>
 
-#include "wavetank/node/stamps.h"
 #include "wavetank/surface/surface_finder.h"
 
 namespace wavetank {
@@ -20,7 +20,7 @@ struct SurfaceMessages {
   sensor_msgs::Image heights;          ///< 32FC1, m, as HeightMap has them
 };
 
-/// `max_points`: of the spray; of more, every second, third … is left.
-SurfaceMessages surface_messages(const WaterSurface& surface, int max_points, const std::string& frame, const StampClock& clock);
+/// `stamp`: of the surface's time. `max_points`: of the spray; of more, every second, third … is left.
+SurfaceMessages surface_messages(const WaterSurface& surface, int max_points, const std::string& frame, const ros::Time& stamp);
 
 }  // namespace wavetank

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "wavetank/node/stamps.h"
 #include "wavetank/node/surface_drawer.h"
 #include "wavetank/node/surface_messages.h"
 
@@ -19,10 +20,12 @@ class SurfacePublisher {
   /// To be called often by the solver's thread: has a surface drawn when one is due, and says whether it did. Where that fails it is told
   /// once, as a warning, and none is drawn any more.
   bool offer(const Simulation& simulation);
+  /// The simulation is about to go back to time 0: a surface begun before that is not published.
+  void restart() { drawer_.drop(); }
 
  private:
   using Clock = std::chrono::steady_clock;
-  void publish(const WaterSurface& surface) const;
+  void publish(const WaterSurface& surface, const ros::Time& stamp) const;
 
   PublishingCase publishing_;
   const StampClock& clock_;
