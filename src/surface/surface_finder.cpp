@@ -17,8 +17,9 @@ constexpr float half_full = 0.5F;
 constexpr float slope = 0.5F;
 /// In the air: as far below the surface's value as the inside of the water is above it.
 constexpr float dry = -0.5F;
-/// Of the particles that would fill it, in a block deep in the water.
-constexpr double least_packed = 0.5;
+/// Of the particles that would fill it, in a block deep in the water. More than half: a cavity of two layers of nodes may take half of two
+/// blocks each. Not much more: few blocks of disordered water would be deep.
+constexpr double least_packed = 0.7;
 
 /// Of a case in 2-D: how far layers of nodes about its plane are apart, in spacings. Four lie within the slab, one on either side outside.
 constexpr double between_layers = 0.3;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -136,6 +137,61 @@ TEST_F(SurfaceFinderTest, ball_has_its_volume) {
   const double volume = static_cast<double>(simulation.state().particles) * std::pow(spacing, 3);
   std::printf("volume %.6f of %.6f m3: %.2f %%\n", volume_of(surface), volume, 100 * (volume_of(surface) / volume - 1));
   EXPECT_NEAR(volume_of(surface), volume, 0.01 * volume);
+}
+
+/// A cube of `cells`³ full of water but for the cells that are air, without gravity.
+Case water_with_air(int cells, double spacing, const std::function<bool(int, int, int)>& is_air) {
+  Case scene = box_case(Vector3d::Constant(cells * spacing), cells * spacing, spacing);
+  scene.fluid.fill.clear();
+  const auto runs = [&](int i, int j) {  // of water, in a column
+    std::vector<std::pair<int, int>> found;
+    for (int k = 0; k < cells; ++k) {
+      if (is_air(i, j, k)) continue;
+      if (found.empty() || found.back().second != k) found.emplace_back(k, k);
+      ++found.back().second;
+    }
+    return found;
+  };
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells;) {
+      const auto water = runs(i, j);
+      const int first = j;
+      while (j < cells && runs(i, j) == water) ++j;  // columns of the same are one box each
+      for (const auto& [from, to] : water)
+        scene.fluid.fill.push_back(Box{spacing * Vector3d(i, first, from), spacing * Vector3d(i + 1, j, to)});
+    }
+  scene.gravity.setZero();
+  scene.fluid.sound_speed = 10;
+  scene.numerics.packing.iterations = 0;
+  return scene;
+}
+
+/// The finder's nodes come in blocks of two: where a cavity begins between them tells whether it leaves all blocks half full.
+TEST_F(SurfaceFinderTest, cavities_of_two_spacings_are_found_wherever_they_begin) {
+  const double spacing = 0.02;
+  for (const int first : {6, 7}) {
+    const Simulation sheet(water_with_air(15, spacing, [&](int, int, int k) { return k == first || k == first + 1; }));
+    const WaterSurface about_sheet = surface_of(sheet);
+    expect_closed(about_sheet);
+    const double volume = static_cast<double>(sheet.state().particles) * std::pow(spacing, 3);
+    EXPECT_NEAR(volume_of(about_sheet), volume, 0.06 * volume) << "sheet from " << first;  // the tank's edges; the sheet is 0.15 of it
+
+    const Eigen::Vector3f middle = Eigen::Vector3f::Constant(static_cast<float>((first + 1) * spacing));
+    const Simulation bubble(water_with_air(
+        15, spacing, [&](int i, int j, int k) { return (Vector3d(i + 0.5, j + 0.5, k + 0.5).array() - (first + 1)).matrix().norm() < 2; }));
+    double sum = 0;
+    int count = 0;
+    for (const Eigen::Vector3f& vertex : surface_of(bubble).vertices) {
+      const double distance = (vertex - middle).norm() / spacing;
+      if (distance > 4) continue;
+      sum += distance;
+      ++count;
+    }
+    ASSERT_GT(count, 0) << "bubble about " << first + 1;
+    std::printf("sheet: volume %.2f %%; bubble: mean radius %.3f spacings, %d vertices\n", 100 * (volume_of(about_sheet) / volume - 1),
+                sum / count, count);
+    EXPECT_NEAR(sum / count, 2, 0.5);
+  }
 }
 
 TEST_F(SurfaceFinderTest, floating_box_bears_no_skin) {
