@@ -115,7 +115,7 @@ struct SurfaceFinder::Parts {
   Contour contour_of(const std::vector<NodeValue>& values) const;
   std::vector<float> sharpened(const WaterField& field) const;
   std::vector<NodeValue> slab(const std::vector<NodeValue>& plane) const;
-  std::vector<Eigen::Vector3f> spray(const WaterField& field) const;
+  std::vector<Eigen::Vector3f> spray(const WaterField& field, const std::vector<float>& sharpened) const;
   HeightMap height_map(const std::vector<NodeValue>& values) const;
 
   int dimensions;
@@ -228,11 +228,12 @@ std::vector<NodeValue> SurfaceFinder::Parts::slab(const std::vector<NodeValue>& 
   return values;
 }
 
-/// Particles where the water between the nodes about them, leaving out those in walls, is not half full.
-std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field) const {
-  constexpr float in_walls = -1;
+/// Particles where the water between the nodes about them, leaving out those in walls, is not half full. By the same filling as the mesh,
+/// so that each is in one of the two.
+std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field, const std::vector<float>& sharpened) const {
+  constexpr float in_walls = -10;  // below what sharpening makes of air
   NodeValues<float> filling(0);
-  for (std::size_t n = 0; n < field.nodes.size(); ++n) filling[field.nodes[n]] = field.walls[n] > 0 ? field.filling[n] : in_walls;
+  for (std::size_t n = 0; n < field.nodes.size(); ++n) filling[field.nodes[n]] = field.walls[n] > 0 ? sharpened[n] : in_walls;
   std::vector<Eigen::Vector3f> found;
   for (const Eigen::Vector3f& particle : field.particles) {
     const Eigen::Vector3f where = grid.in_cells(particle.cast<double>()).cast<float>();
@@ -358,7 +359,7 @@ WaterSurface SurfaceFinder::find(const WaterField& field) const {
     surface.vertices.push_back(place.cast<float>());
   }
   surface.triangles = std::move(found.triangles);
-  surface.spray = parts.spray(field);
+  surface.spray = parts.spray(field, filling);
   surface.heights = parts.height_map(values);
   return surface;
 }

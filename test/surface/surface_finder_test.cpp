@@ -236,6 +236,38 @@ TEST_F(SurfaceFinderTest, drop_of_one_particle_is_spray) {
   for (const Eigen::Vector3f& v : surface.vertices) ASSERT_LT(v.z(), 0.25F);
 }
 
+/// How often the surface goes round a point: 1 in the water, 0 outside.
+double turns_about(const WaterSurface& surface, const Vector3d& point) {
+  double angle = 0;
+  for (const std::array<int, 3>& t : surface.triangles) {
+    const Vector3d a = surface.vertices[t[0]].cast<double>() - point, b = surface.vertices[t[1]].cast<double>() - point,
+                   c = surface.vertices[t[2]].cast<double>() - point;
+    const double p = a.norm(), q = b.norm(), r = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)), p * q * r + a.dot(b) * r + b.dot(c) * p + c.dot(a) * q);
+  }
+  return angle / (4 * M_PI);
+}
+
+TEST_F(SurfaceFinderTest, particle_of_a_small_drop_is_in_the_mesh_or_spray) {
+  Case scene = still_tank();
+  const Vector3d drop(0.28, 0.18, 0.28);
+  scene.fluid.fill.push_back(Box{drop, drop + Vector3d::Constant(3 * 0.02)});
+  scene.numerics.packing.iterations = 0;
+  const Simulation simulation(scene);
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  int in_mesh = 0;
+  for (const Eigen::Vector3f& particle : simulation.places()) {
+    if (particle.z() < 0.27F) continue;
+    const bool is_within = turns_about(surface, particle.cast<double>()) > 0.5;
+    const bool is_spray = std::find(surface.spray.begin(), surface.spray.end(), particle) != surface.spray.end();
+    EXPECT_NE(is_within, is_spray) << particle.transpose();
+    if (is_within) ++in_mesh;
+  }
+  std::printf("%d of 27 particles in the mesh\n", in_mesh);
+  EXPECT_GT(in_mesh, 0);
+}
+
 TEST_F(SurfaceFinderTest, two_dimensions_are_a_slab_of_one_spacing) {
   const double spacing = 0.02;
   Case scene = box_case(Vector3d(0.6, 0, 0.4), 0.2, spacing);
