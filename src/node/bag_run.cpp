@@ -179,10 +179,10 @@ void BagRun::finish_bag() {
   run.failure = violation_.empty() ? cut_short_ : violation_;
   try {
     recorder_->finish(last_, energies_, run);
-    bag_is_whole_ = true;
   } catch (const BagError& error) {
     cut_short_ = error.what();
   }
+  bag_is_whole_ = recorder_->is_whole();
 }
 
 /// A state that nobody asked for takes no other file's place.

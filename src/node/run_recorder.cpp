@@ -85,17 +85,30 @@ void RunRecorder::write_surfaces() {
 }
 
 void RunRecorder::finish(const SolverState& solver, const EnergySample& energies, const RunState& run) {
-  if (drawer_) {
-    drawer_->wait();
-    try {
-      write_surfaces();
-      check_drawing();
-    } catch (const BagError&) {  // a full disk has no room for the last one, but for the end of the bag
-      if (!bag_.is_open()) throw;
-    }
+  const std::string missing = missing_surface();
+  RunState last = run;
+  if (!missing.empty() && last.failure.empty()) {
+    last.phase = SolverStatus::FAILED;
+    last.failure = missing;
   }
-  bag_.write_last("status", clock_.at(solver.time), status_message(case_, solver, energies, run, clock_));
+  bag_.write_last("status", clock_.at(solver.time), status_message(case_, solver, energies, last, clock_));
   bag_.finish();
+  is_whole_ = true;
+  if (!missing.empty()) throw BagError(missing);
+}
+
+/// Writes the last surface, and returns why it is not in the bag: a full disk may have no room for it, but for the end of the bag.
+std::string RunRecorder::missing_surface() {
+  if (!drawer_) return "";
+  drawer_->wait();
+  try {
+    write_surfaces();
+    check_drawing();
+  } catch (const BagError& error) {
+    if (!bag_.is_open()) throw;
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace wavetank

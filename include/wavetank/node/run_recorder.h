@@ -44,10 +44,11 @@ class RunRecorder {
   void draw_no_more() { is_drawing_ = false; }
   /// The simulation is back at time 0.
   void restart() { next_status_ = next_cloud_ = next_surface_ = 0; }
-  /// The last status, and the bag gets its name.
+  /// The last status, and the bag gets its name. Throws BagError as BagWriter, and for the last surface as record: the bag is whole then.
   void finish(const SolverState& solver, const EnergySample& energies, const RunState& run);
 
   bool is_open() const { return bag_.is_open(); }
+  bool is_whole() const { return is_whole_; }  ///< and has its name
   const std::string& path() const { return bag_.path(); }
 
  private:
@@ -58,9 +59,11 @@ class RunRecorder {
   void record_surface(const Simulation& simulation);
   void write_surfaces();
   void check_drawing() const;
+  std::string missing_surface();
 
   RecordedPictures pictures_;
   bool is_drawing_ = true;
+  bool is_whole_ = false;
   double next_status_ = 0, next_cloud_ = 0, next_surface_ = 0;  ///< s of simulated time
   std::mutex mutex_;
   std::vector<SurfaceMessages> found_;     ///< surfaces that are not written yet
