@@ -112,6 +112,7 @@ struct SurfaceFinder::Parts {
   /// In spacings, of all walls where they are now.
   float to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const;
   std::vector<std::optional<RigidState>> moved_owners(const RigidWorld& world) const;
+  Vector3d as_given(const Vector3d& place, std::size_t owner, const std::vector<std::optional<RigidState>>& moved) const;
   Contour contour_of(const std::vector<NodeValue>& values) const;
   std::vector<float> sharpened(const WaterField& field) const;
   std::vector<NodeValue> slab(const std::vector<NodeValue>& plane) const;
@@ -166,11 +167,20 @@ std::vector<std::optional<RigidState>> SurfaceFinder::Parts::moved_owners(const 
   return moved;
 }
 
+/// Where a place was beside the owner before that moved: in the layout's coordinates.
+Vector3d SurfaceFinder::Parts::as_given(const Vector3d& place, std::size_t owner,
+                                        const std::vector<std::optional<RigidState>>& moved) const {
+  if (!moved[owner]) return place;
+  Vector3d given = moved[owner]->orientation.conjugate() * (place - moved[owner]->position) + references[owner];
+  if (dimensions == 2) given.y() = 0;  // but for rounding it is; walls are known in that plane alone
+  return given;
+}
+
 float SurfaceFinder::Parts::to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const {
   float least = WallDistances::reach;
   const Vector3d place = grid.place(node);
   for (std::size_t o = 0; o < walls.size(); ++o) {
-    const Vector3d given = moved[o] ? moved[o]->orientation.conjugate() * (place - moved[o]->position) + references[o] : place;
+    const Vector3d given = as_given(place, o, moved);
     const Box& box = walls[o]->box();
     if ((given.array() < box.min.array()).any() || (given.array() > box.max.array()).any()) continue;
     least = std::min(least, moved[o] ? walls[o]->at(given) : walls[o]->at(node));

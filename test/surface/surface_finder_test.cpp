@@ -287,6 +287,36 @@ TEST_F(SurfaceFinderTest, two_dimensions_are_a_slab_of_one_spacing) {
     EXPECT_NEAR(surface.heights.heights[row], 0.2, 0.1 * spacing);
 }
 
+TEST_F(SurfaceFinderTest, body_in_two_dimensions_cuts_the_water_off_where_it_has_turned_to) {
+  const double spacing = 0.02;
+  Case scene = box_case(Vector3d(0.8, 0, 0.5), 0.3, spacing);
+  BodyCase body;
+  body.name = "box";
+  const Box hull{Vector3d(0.3, 0, 0.2), Vector3d(0.5, 0, 0.36)};
+  body.shape = hull;
+  body.motion = Motion::free;
+  body.rigid.density = 500;
+  body.rigid.angular_velocity = Vector3d(0, 3, 0);
+  scene.bodies = {body};
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.06) simulation.advance();
+  const RigidState state = simulation.bodies().state_in_tank(1);
+  ASSERT_GT(std::abs(state.orientation.y()), 0.03);
+  const WaterSurface surface = surface_of(simulation);
+  expect_closed(surface);
+  double deepest = -1;
+  int about = 0;
+  for (const Eigen::Vector3f& v : surface.vertices) {
+    const Vector3d given = state.orientation.conjugate() * (v.cast<double>() - state.position) + simulation.bodies().reference(1);
+    const double depth = std::min({given.x() - hull.min.x(), hull.max.x() - given.x(), given.z() - hull.min.z(), hull.max.z() - given.z()});
+    deepest = std::max(deepest, depth);
+    if (std::abs(depth) < 0.5 * spacing) ++about;
+  }
+  std::printf("deepest vertex in the hull %.2f spacings, %d about it\n", deepest / spacing, about);
+  EXPECT_LT(deepest, 0.5 * spacing);
+  EXPECT_GT(about, 0);
+}
+
 TEST_F(SurfaceFinderTest, many_triangles_are_made_fewer) {
   const Simulation simulation(still_tank());
   const WaterSurface fine = surface_of(simulation), flat = surface_of(simulation, fine.triangles.size() / 2),
