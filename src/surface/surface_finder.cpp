@@ -112,6 +112,8 @@ struct SurfaceFinder::Parts {
   /// In spacings, of all walls where they are now.
   float to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const;
   std::vector<std::optional<RigidState>> moved_owners(const RigidWorld& world) const;
+  float to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved) const;
+  void leave_out_beyond(const std::vector<std::optional<RigidState>>& moved, std::vector<Eigen::Vector3f>& particles) const;
   Vector3d as_given(const Vector3d& place, std::size_t owner, const std::vector<std::optional<RigidState>>& moved) const;
   Contour contour_of(const std::vector<NodeValue>& values) const;
   std::vector<float> sharpened(const WaterField& field) const;
@@ -125,6 +127,7 @@ struct SurfaceFinder::Parts {
   Box domain;
   Box reach;  ///< of the solver's grid, and a margin: what is farther away is lost
   NodeGrid grid;
+  std::vector<Opening> openings;
   std::vector<bool> moving;
   std::vector<Vector3d> references;
   std::array<bool, 3> periodic;
@@ -145,6 +148,7 @@ SurfaceFinder::Parts::Parts(const Simulation& simulation)
   (top.way > 0 ? reach.max : reach.min)[top.axis] += top.way * (domain.max[top.axis] - domain.min[top.axis]);
   reach.min.array() -= WallDistances::reach * grid.cell;
   reach.max.array() += WallDistances::reach * grid.cell;
+  openings = layout.openings;
   moving = layout.moving;
   for (int axis = 0; axis < 3; ++axis) periodic[axis] = simulation.scene().tank.periodic[axis];
   for (std::size_t o = 0; o < simulation.bodies().count(); ++o) {
@@ -188,7 +192,33 @@ float SurfaceFinder::Parts::to_walls(const Node& node, const std::vector<std::op
   for (int axis = 0; axis < 3; ++axis)  // where the water goes on at the other end
     if (periodic[axis])
       least = std::min(least, static_cast<float>(std::min(place[axis] - domain.min[axis], domain.max[axis] - place[axis]) / grid.cell));
-  return least;
+  return std::min(least, to_openings(place, moved));
+}
+
+/// In spacings, to the nearest opening, as if it were a wall: negative in the pocket behind it, whose water is not the tank's.
+float SurfaceFinder::Parts::to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved) const {
+  double least = WallDistances::reach;
+  for (const Opening& opening : openings) {
+    const Vector3d way = (as_given(place, opening.owner, moved) - opening.centre) / grid.cell;
+    const double before = way.dot(opening.normal);
+    if (before < -opening.pocket / grid.cell - 1 || before > least) continue;
+    const auto beside = [&](const Vector3d& axis, double length) {
+      return std::max(std::abs(way.dot(axis)) - 0.5 * length / grid.cell, 0.0);
+    };
+    const double aside = std::hypot(dimensions == 2 ? 0.0 : beside(opening.across, opening.width), beside(opening.up, opening.height));
+    if (before >= 0)
+      least = std::min(least, std::hypot(before, aside));
+    else if (aside < 0.5)
+      least = std::min(least, before);
+  }
+  return static_cast<float>(least);
+}
+
+void SurfaceFinder::Parts::leave_out_beyond(const std::vector<std::optional<RigidState>>& moved,
+                                            std::vector<Eigen::Vector3f>& particles) const {
+  if (openings.empty()) return;
+  const auto is_beyond = [&](const Eigen::Vector3f& at) { return to_openings(at.cast<double>(), moved) < 0; };
+  particles.erase(std::remove_if(particles.begin(), particles.end(), is_beyond), particles.end());
 }
 
 /// The filling less half the blur's variance times its Laplacian: without what that rounds off where the surface is curved.
@@ -314,6 +344,7 @@ WaterField SurfaceFinder::look_at(const Simulation& simulation) const {
   parts.leave_out_lost(field.particles);
   const auto moved = parts.moved_owners(simulation.bodies());
   const Blocks blocks(field.particles, parts.grid, parts.dimensions);
+  parts.leave_out_beyond(moved, field.particles);
   std::vector<char> is_near(blocks.count()), is_packed(blocks.count());
   std::vector<std::array<float, 8>> walls;  // of the near ones
   for (int b = 0; b < blocks.count(); ++b) {

@@ -317,6 +317,34 @@ TEST_F(SurfaceFinderTest, body_in_two_dimensions_cuts_the_water_off_where_it_has
   EXPECT_GT(about, 0);
 }
 
+TEST_F(SurfaceFinderTest, openings_cut_off_the_water_beyond_them) {
+  const double spacing = 0.02, depth = 0.2;
+  for (const int dimensions : {2, 3}) {
+    Case scene = box_case(Vector3d(0.6, dimensions == 2 ? 0 : 0.3, 0.4), depth, spacing);
+    OpeningCase inlet;
+    inlet.name = "in";
+    inlet.kind = OpeningKind::inlet;
+    inlet.centre = Vector3d(0, dimensions == 2 ? 0 : 0.15, 0.15);
+    inlet.normal = Vector3d::UnitX();
+    inlet.size = std::array<double, 2>{0.16, 0.3};
+    inlet.velocity = "0.1";
+    inlet.level = depth;
+    scene.openings = {inlet};
+    Simulation simulation(scene);
+    for (int step = 0; step < 5; ++step) simulation.advance();
+    ASSERT_GT(simulation.layout().beyond, 0u);
+    const WaterSurface surface = surface_of(simulation);
+    expect_closed(surface);
+    double least = 1;
+    for (const Eigen::Vector3f& v : surface.vertices) least = std::min<double>(least, v.x());
+    std::printf("from x = %.5f m, %zu of spray, volume %.5f m3\n", least, surface.spray.size(), volume_of(surface));
+    EXPECT_NEAR(least, 0, 0.05 * spacing);
+    EXPECT_TRUE(surface.spray.empty());
+    const double volume = 0.6 * (dimensions == 2 ? spacing : 0.3) * depth;
+    EXPECT_NEAR(volume_of(surface), volume, 0.03 * volume);
+  }
+}
+
 TEST_F(SurfaceFinderTest, many_triangles_are_made_fewer) {
   const Simulation simulation(still_tank());
   const WaterSurface fine = surface_of(simulation), flat = surface_of(simulation, fine.triangles.size() / 2),

@@ -44,8 +44,8 @@ struct WaterField {
   std::vector<float> walls;                ///< of each node, spacings to the nearest wall; negative within it
 };
 
-/// Finds the surface of the water: where the kernel is half full, on a grid of one spacing, closed by the walls of tank and bodies. In 2-D
-/// it is that of a slab of one spacing.
+/// Finds the surface of the water: where the kernel is half full, on a grid of one spacing, closed by the walls of tank and bodies and by
+/// the planes of openings. In 2-D it is that of a slab of one spacing.
 class SurfaceFinder {
  public:
   /// Takes what it needs of the simulation's case and layout. `most_triangles`: what a surface may have; one of more is made coarser where
