@@ -29,6 +29,7 @@ from wavetank.web.drawing import Drawing
 from wavetank.web.mailbox import Mailbox
 from wavetank.web.meshes import read_obj, read_stl, triangles_of
 from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
+from wavetank.web.replay import Replay
 from wavetank.web.requests import LIVE, REPLAY, Refused, origin_is_ours, read_request
 from wavetank.web.series import Series
 
@@ -243,7 +244,7 @@ def surface_markers(stamp, ahead):
     return surface, spray
 
 
-def write_bag(path, clouds=True):
+def write_bag(path, clouds=True, stamped_lines=False):
     """Water of 1 × 0.6 × 0.52 m that moves ahead in a tank of 2 m, a body that rises out of it, a probe."""
     with rosbag.Bag(path, "w") as bag:
         start = rospy.Time(0, 1)
@@ -254,10 +255,12 @@ def write_bag(path, clouds=True):
             box_marker("bodies", "tank/bodies/boat", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1), (0.95, 0.6, 0.15, 1.0)),
         ]
         bag.write("/wavetank/markers", MarkerArray(shapes), start)
-        line = Marker(ns="moorings", type=Marker.LINE_STRIP, points=[Point(0, 0, 0), Point(1, 0, 0.5)])
-        line.header.stamp = rospy.Time.from_sec(0.5)
-        line.pose.orientation.w = 1.0
-        bag.write("/wavetank/markers", MarkerArray([line]), line.header.stamp)
+        for n in (0, 1):  # as earlier versions wrote them, without a stamp
+            line = Marker(ns="moorings", type=Marker.LINE_STRIP, points=[Point(0, 0, 0), Point(1, 0, n)])
+            line.pose.orientation.w = 1.0
+            if stamped_lines:
+                line.header.stamp = rospy.Time.from_sec(0.5 + 0.25 * n)
+            bag.write("/wavetank/markers", MarkerArray([line]), rospy.Time.from_sec(0.5 + 0.25 * n))
         lattice = numpy.stack(numpy.meshgrid(numpy.arange(25), numpy.arange(15), numpy.arange(13), indexing="ij"), axis=-1).reshape(-1, 3) * 0.04 + 0.02
         for n in range(201):
             stamp = rospy.Time.from_sec(n / 200)
@@ -300,9 +303,19 @@ class WithBag(unittest.TestCase):
 class Messages(WithBag):
     def test_messages_one_by_one(self):
         recording = Recording(self.bag)
-        drawings = recording.stream("markers", "visualization_msgs/MarkerArray", header_at=4)
-        self.assertEqual(drawings.stamps.tolist(), [0, 500000000])
+        drawings = recording.stream("markers", "visualization_msgs/MarkerArray", header_at=4, take_recorded=True)
+        self.assertEqual(drawings.stamps.tolist(), [1, 500000000, 750000000])
         self.assertEqual([marker["ns"] for marker in drawings.read(1)["markers"]], ["moorings"])
+
+    def test_lines_are_those_of_the_time_also_back(self):
+        stamped = self.bag + ".stamped.bag"
+        write_bag(stamped, stamped_lines=True)
+        for bag in (self.bag, stamped):
+            replay = Replay(bag)
+            for time, heights in ((0.9, [1.0]), (0.6, [0.0]), (0.2, []), (0.75, [1.0]), (0.0, [])):
+                header, arrays = unpack(replay.pictures(time, "free_surface")["lines"])
+                self.assertEqual([arrays[part["points"]][5] for part in header["parts"]], heights, "%s %g" % (bag, time))
+            self.assertEqual(len(unpack(replay.pictures(0.9, "free_surface")["lines"])[0]["parts"]), 1)
 
 
 @unittest.skipIf(NO_SERVER, NO_SERVER)
@@ -344,8 +357,8 @@ class Server(WithBag):
                 cloud, arrays = await self.next_of(connection, "cloud")
                 self.assertEqual((cloud["time"], len(arrays["points"])), (expected, 4 * 4875))
                 numpy.testing.assert_allclose(cloud["poses"]["boat"], [1.5, 0, expected, 0, 0, 0, 1])
-            lines, _ = await self.next_of(connection, "lines")
-            self.assertEqual(lines["parts"][0]["group"], "moorings")
+                lines, _ = await self.next_of(connection, "lines")
+                self.assertEqual([part["group"] for part in lines["parts"]], ["moorings"] if time >= 0.5 else [])
             for time, expected, corners, drops in ((0.4, 0.0, 0, 0), (0.6, 0.5, 36, 2)):
                 await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "surface"}))
                 surface, arrays = await self.next_of(connection, "surface")

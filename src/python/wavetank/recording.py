@@ -160,9 +160,9 @@ class Recording:
     def has_cloud(self, name):
         return bool(self._connections(name, CLOUD))
 
-    def stream(self, name, kind, header_at=0):
-        """The messages of that name and type, one at a time. header_at: bytes before their header."""
-        return Stream(self._bag, self._connections(name, kind), kind, header_at)
+    def stream(self, name, kind, header_at=0, take_recorded=False):
+        """The messages of that name and type, one at a time. header_at: bytes before their header. take_recorded: see Stream."""
+        return Stream(self._bag, self._connections(name, kind), kind, header_at, take_recorded)
 
     def first(self, name, kind):
         """The first message of that name and type under the namespace, as nested dictionaries and lists; None if there is none."""
@@ -220,16 +220,20 @@ def joined(blocks):
 
 
 class Stream:
-    """Messages that are too large to be read all at once. stamps: ns of simulated time, in order."""
+    """Messages that are too large to be read all at once. stamps: ns of simulated time, in order.
 
-    def __init__(self, bag, connections, kind, header_at=0):
+    take_recorded: where none of them has a stamp, as the markers of earlier versions, the times that they were recorded."""
+
+    def __init__(self, bag, connections, kind, header_at=0, take_recorded=False):
         self._bag, self._kind = bag, kind
         found = []
         for number in connections:
             types = read_definition(kind, bag.connections[number].definition)
-            for place in bag.places(number):
+            for place, recorded in bag.places(number):
                 seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, header_at + 12), header_at + 4)  # after the header's count
-                found.append((seconds * 1000000000 + nanoseconds, place, types))
+                found.append((seconds * 1000000000 + nanoseconds, place, types, recorded))
+        if take_recorded and not any(each[0] for each in found):
+            found = [(recorded, place, types, recorded) for _, place, types, recorded in found]
         found.sort(key=lambda each: each[0])
         self.stamps = numpy.array([each[0] for each in found], numpy.int64)
         self._found = found
@@ -239,7 +243,7 @@ class Stream:
 
     def read(self, n):
         """The n-th as read_tree has it."""
-        _, place, types = self._found[n]
+        _, place, types, _ = self._found[n]
         return read_tree(types, self._kind, self._bag.message(place))
 
 

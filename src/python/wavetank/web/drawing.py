@@ -32,6 +32,9 @@ class Drawing:
                 into.pop(name, None)
         return "drawing" if whole else "lines"
 
+    def forget_lines(self):
+        self._lines.clear()
+
     def packet(self, kind="drawing"):
         parts, arrays = [], {}
         for (group, number), marker in (self._markers if kind == "drawing" else self._lines).items():

@@ -39,7 +39,7 @@ class Replay:
             raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds, or record:=true clouds:=true of a launch file" % path)
         self._case = read_case(self._recording.text("case"))
         self._poses = {name.split("/")[1]: Pose(self._recording.table(name)) for name in self._recording.names if name.endswith("/odom")}
-        self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4), Drawing()
+        self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4, take_recorded=True), Drawing()
         if len(self._drawings):
             self._drawing.follow(self._drawings.read(0))
         self._series = [self._read_series(name) for name in self._recording.names if is_plotted(name)]
@@ -88,10 +88,17 @@ class Replay:
         """Packets by kind of what the bag has last at a time (s), or first where that is later."""
         stamp = int(round(time * 1e9))
         pictures = self._surface_pictures(stamp) if water == "surface" else self._cloud_pictures(stamp, water)
-        lines = bisect.bisect_right(self._drawings.stamps, stamp) - 1
-        if lines > 0 and self._drawing.follow(self._drawings.read(lines)) == "lines":
-            pictures["lines"] = self._drawing.packet("lines")
+        if len(self._drawings) > 1:
+            pictures["lines"] = self._lines_at(stamp)
         return pictures
+
+    def _lines_at(self, stamp):
+        """Each message draws them all; before the first there are none."""
+        self._drawing.forget_lines()
+        lines = bisect.bisect_right(self._drawings.stamps, stamp) - 1
+        if lines > 0:
+            self._drawing.follow(self._drawings.read(lines))
+        return self._drawing.packet("lines")
 
     def _cloud_pictures(self, stamp, water):
         messages = self._clouds[water]
