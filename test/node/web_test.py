@@ -5,12 +5,14 @@ import asyncio
 import json
 import math
 import os
+import shutil
 import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import urllib.error
 import urllib.request
 
@@ -24,10 +26,10 @@ from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import ProbeArray
+from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
 from wavetank.web.drawing import Drawing
 from wavetank.web.mailbox import Mailbox
-from wavetank.web.meshes import read_obj, read_stl, triangles_of
 from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
 from wavetank.web.replay import Replay
 from wavetank.web.requests import LIVE, REPLAY, Refused, origin_is_ours, read_request
@@ -188,14 +190,30 @@ class Drawings(unittest.TestCase):
         self.assertEqual(read_stl(text.encode()).tolist(), TRIANGLE)
         square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 -1//4\n"
         self.assertEqual(read_obj(square).tolist(), [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]])
-        for reader, bad in ((read_stl, b""), (read_stl, data[:-1]), (read_obj, b"v 0 0\nf 1 2 3\n")):
+        for reader, bad in ((read_stl, b""), (read_stl, data[:-1]), (read_obj, b"v 0 0\nf 1 2 3\n"), (read_obj, square.replace(b"f 1/1", b"f 0/1"))):
             with self.assertRaises((ValueError, IndexError)):
                 reader(bad)
 
     def test_only_files_of_packages(self):
         self.assertEqual(triangles_of("package://wavetank/meshes/sphere.stl").shape[1], 3)
-        for uri in ("file:///etc/passwd", "/etc/passwd", "package://wavetank/../../etc/a.stl", "package://no_such_package/a.stl", "package://wavetank/package.xml"):
+        for uri in ("file:///etc/passwd", "/etc/passwd", "package://wavetank/../../etc/a.stl", "package://no_such_package/a.stl", "package://wavetank/package.xml", "package://wavetank/\0.stl"):
             self.assertIsNone(triangles_of(uri), uri)
+
+    def test_no_way_leads_out_of_a_package(self):
+        mesh = os.path.realpath(package_path("package://wavetank/meshes/sphere.stl"))
+        with tempfile.TemporaryDirectory(prefix="wavetank_test_") as folder:
+            package = os.path.join(folder, "made_package")
+            os.mkdir(package)
+            with open(os.path.join(package, "package.xml"), "w") as file:
+                file.write("<package><name>made_package</name></package>")
+            shutil.copy(mesh, os.path.join(folder, "outside.stl"))
+            shutil.copy(mesh, os.path.join(package, "inside.stl"))
+            os.symlink(os.path.join(folder, "outside.stl"), os.path.join(package, "link.stl"))
+            os.mkfifo(os.path.join(package, "pipe.stl"))  # nobody writes into it
+            with unittest.mock.patch.dict(os.environ, {"ROS_PACKAGE_PATH": folder}):
+                self.assertIsNotNone(triangles_of("package://made_package/inside.stl"))
+                for name in (os.path.join(folder, "outside.stl"), mesh, "../outside.stl", "link.stl", "pipe.stl", "none.stl"):
+                    self.assertIsNone(triangles_of("package://made_package/" + name), name)
 
     def test_markers_come_and_go(self):
         drawing = Drawing()

@@ -2,7 +2,7 @@
 
 import numpy
 
-from wavetank.web.meshes import triangles_of
+from wavetank.meshes import triangles_of
 from wavetank.web.packets import colour_of, pack, rows_of
 
 ADD, DELETE, DELETE_ALL = 0, 2, 3  # of visualization_msgs/Marker
