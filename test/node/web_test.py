@@ -26,6 +26,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import ProbeArray
+from wavetank.bag_file import BagFile
 from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
 from wavetank.web.drawing import Drawing
@@ -262,9 +263,9 @@ def surface_markers(stamp, ahead):
     return surface, spray
 
 
-def write_bag(path, clouds=True, stamped_lines=False):
+def write_bag(path, clouds=True, stamped_lines=False, broken_at=None, lost_at=None, **how):
     """Water of 1 × 0.6 × 0.52 m that moves ahead in a tank of 2 m, a body that rises out of it, a probe."""
-    with rosbag.Bag(path, "w") as bag:
+    with rosbag.Bag(path, "w", **how) as bag:
         start = rospy.Time(0, 1)
         text = 'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
         bag.write("/wavetank/case", String(text), start)
@@ -287,7 +288,7 @@ def write_bag(path, clouds=True, stamped_lines=False):
             bag.write("/wavetank/probes", probes, stamp if n else start)
             odometry = Odometry()
             odometry.header.stamp = stamp
-            odometry.pose.pose.position.x, odometry.pose.pose.position.z, odometry.pose.pose.orientation.w = 1.5, n / 200, 1.0
+            odometry.pose.pose.position.x, odometry.pose.pose.position.z, odometry.pose.pose.orientation.w = 1.5, n / 200, math.nan if n == lost_at else 1.0
             bag.write("/wavetank/bodies/boat/odom", odometry, stamp if n else start)
             if clouds and n % 100 == 0:
                 for marker in surface_markers(stamp, n / 200):
@@ -299,6 +300,8 @@ def write_bag(path, clouds=True, stamped_lines=False):
                 points[::40, 3] = 2.0  # some are fast, so that the others have the colours of slow water
                 fields = [PointField(name, 4 * place, PointField.FLOAT32, 1) for place, name in enumerate(("x", "y", "z", "vx", "vy", "vz"))]
                 cloud = PointCloud2(height=1, width=len(points), fields=fields, point_step=24, row_step=24 * len(points), data=points.tobytes())
+                if n == broken_at:
+                    fields[0].datatype = 99
                 cloud.header.stamp = stamp
                 bag.write("/wavetank/free_surface", cloud, stamp if n else start)
 
@@ -345,11 +348,12 @@ class Server(WithBag):
         cls.addClassCleanup(end, cls.process)
         cls.host = cls.url[len("http://") : -1]
 
-    def connect(self, origin=None):
+    def connect(self, origin=None, url=None):
         from tornado.httpclient import HTTPRequest
         from tornado.websocket import websocket_connect
 
-        return websocket_connect(HTTPRequest("ws://%s/socket" % self.host, headers={"Origin": origin or self.url[:-1]}))
+        url = url or self.url
+        return websocket_connect(HTTPRequest(url.replace("http", "ws") + "socket", headers={"Origin": origin or url[:-1]}))
 
     @staticmethod
     async def next_of(connection, kind):
@@ -386,6 +390,39 @@ class Server(WithBag):
             connection.close()
 
         asyncio.run(talk())
+
+    def test_what_cannot_be_read_gets_an_answer_and_the_next_is_heard(self):
+        bag = self.bag + ".damaged.bag"
+        write_bag(bag, compression="bz2", chunk_threshold=100000, broken_at=40)
+        process, url = start_server(bag)
+        self.addCleanup(end, process)
+        chunks = BagFile(bag)._all_chunks()
+        place = Recording(bag).stream("free_surface", "sensor_msgs/PointCloud2")._found[3][1][0]
+        with open(bag, "r+b") as file:  # of the cloud at 0.6 s
+            file.seek(chunks[place][1])
+            file.write(bytes(1000))
+
+        async def talk():
+            connection = await self.connect(url=url)
+            for time, ok, word in ((0.4, True, ""), (0.6, False, "is not whole"), (0.2, False, "failed in the server"), (0.0, True, "")):
+                await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "free_surface"}))
+                answer, _ = await self.next_of(connection, "answer")
+                self.assertEqual(answer["ok"], ok, "%g: %s" % (time, answer))
+                self.assertIn(word, answer["text"])
+            connection.close()
+
+        asyncio.run(talk())
+
+    def test_a_pose_that_is_no_number_is_left_out(self):
+        from wavetank.web.server import text_of
+
+        bag = self.bag + ".lost.bag"
+        write_bag(bag, lost_at=200)
+        replay = Replay(bag)
+        for time, bodies in ((0.2, ["boat"]), (1.0, [])):
+            self.assertEqual(list(unpack(replay.pictures(time, "free_surface")["cloud"])[0]["poses"]), bodies)
+        with self.assertRaises(ValueError):
+            text_of({"kind": "poses", "poses": {"boat": [math.nan] * 7}})
 
     def test_what_is_not_allowed_gets_an_answer_and_the_next_is_heard(self):
         async def talk():
@@ -463,10 +500,7 @@ class Server(WithBag):
         self.addCleanup(end, process)
 
         async def talk():
-            from tornado.httpclient import HTTPRequest
-            from tornado.websocket import websocket_connect
-
-            connection = await websocket_connect(HTTPRequest(url.replace("http", "ws") + "socket", headers={"Origin": url[:-1]}))
+            connection = await self.connect(url=url)
             await self.next_of(connection, "hello")
             process.terminate()
             while await asyncio.wait_for(connection.read_message(), 10) is not None:
@@ -514,6 +548,12 @@ class InTheBrowser(WithBag):
         self.assertEqual(browser.get("document.querySelector('.plot .values').textContent.trim()").split()[0], "P1")
         self.assertTrue(math.isclose(browser.get("[...wavetank.plots.all.values()][0].row()[1]"), 400.0))
         self.assertEqual(browser.errors(), [])
+        bad = ("wavetank._hear('{')", """wavetank._hear('{"kind": "poses", "poses": {"boat": null}}')""", "wavetank._hear(new ArrayBuffer(2))")
+        self.assertEqual(browser.driver.execute_script("const before = wavetank.unseen; %s; return wavetank.unseen - before" % "; ".join(bad)), 3)
+        self.assertIn("cannot be shown", browser.get("document.getElementById('answer').textContent"))
+        self.assertEqual(len(browser.errors()), 3)
+        browser.press("step")
+        browser.wait("wavetank.time === 0.4")
         browser.quit()
         self.assertEqual(end(process), 0)
 

@@ -221,7 +221,9 @@ class Live:
         came = [(body, self._poses_came.pop(body)) for body in list(self._poses_came)]
         for body, message in came:
             pose = self._tree(message)["pose"]["pose"]
-            self._poses[body] = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            numbers = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            if numbers:
+                self._poses[body] = numbers
         return {"kind": "poses", "poses": dict(self._poses)} if came else None
 
     def call(self, request):

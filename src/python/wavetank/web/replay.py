@@ -115,7 +115,8 @@ class Replay:
         return pictures
 
     def _poses_at(self, stamp):
-        return {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}
+        poses = {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}
+        return {name: pose for name, pose in poses.items() if pose}
 
 
 def stamp_of_header(message):

@@ -3,6 +3,7 @@
 import asyncio
 import errno
 import json
+import logging
 import os
 import socket
 import threading
@@ -50,7 +51,8 @@ async def in_thread(function, *arguments):
 
 
 def text_of(packet):
-    return packet if isinstance(packet, bytes) else json.dumps(packet, separators=(",", ":"))
+    """Raises ValueError of what is no number: a page could not read it."""
+    return packet if isinstance(packet, bytes) else json.dumps(packet, separators=(",", ":"), allow_nan=False)
 
 
 class Hub:
@@ -116,6 +118,10 @@ class Client(tornado.websocket.WebSocketHandler):
         self.sender = asyncio.ensure_future(self.send())
         self.wake.set()
 
+    def is_let_in(self):
+        """Not one above the number of pages that may be open, nor one that has gone: neither is obeyed, whatever it has sent."""
+        return self in self.hub.clients
+
     def wants(self, kind):
         return kind in KEPT or kind == self.water or (kind == "spray" and self.water == "surface")
 
@@ -136,8 +142,10 @@ class Client(tornado.websocket.WebSocketHandler):
 
     async def on_message(self, text):
         # tornado reads the next message when this is done: who asks faster than it is answered, or does not read answers, is not read either
-        while self in self.hub.clients and self.requests + self.mailbox.answers() >= WAITING_REQUESTS:
+        while self.is_let_in() and self.requests + self.mailbox.answers() >= WAITING_REQUESTS:
             await asyncio.sleep(0.01)
+        if not self.is_let_in():
+            return
         try:
             request = read_request(text, self.source.requests, self.source.known())
         except Refused as refused:
@@ -151,15 +159,20 @@ class Client(tornado.websocket.WebSocketHandler):
         asyncio.ensure_future(self.answer_to(request))
 
     async def answer_to(self, request):
-        """One after the other, in their order."""
+        """One after the other, in their order. Whatever goes wrong is an answer: the page waits for one."""
         try:
             async with self.busy:
-                text = await self.do(request)
-            self.answer({"kind": "answer", "do": request["do"], "ok": True, "text": text or ""})
-        except Refused as refused:
-            self.answer({"kind": "answer", "do": request["do"], "ok": False, "text": str(refused)})
+                if not self.is_let_in():
+                    return
+                text, ok = await self.do(request) or "", True
+        except (Refused, Failure) as failure:
+            text, ok = str(failure), False
+        except Exception:
+            logging.getLogger("wavetank.web").exception("'%s' of a page failed", request["do"])
+            text, ok = "'%s' failed in the server, which tells more where it was started" % request["do"], False
         finally:
             self.requests -= 1
+        self.answer({"kind": "answer", "do": request["do"], "ok": ok, "text": text})
 
     def answer(self, packet):
         self.mailbox.answer(text_of(packet))

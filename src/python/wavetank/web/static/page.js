@@ -44,7 +44,7 @@ class Page {
     this._badge("wait", "connecting");
     const socket = new WebSocket(`ws://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
-    socket.onmessage = (event) => this._take(typeof event.data === "string" ? JSON.parse(event.data) : unpack(event.data));
+    socket.onmessage = (event) => this._hear(event.data);
     socket.onclose = (event) => {
       this.socket = null;
       this.player.waiting = false;
@@ -64,10 +64,20 @@ class Page {
     if (this.socket && this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(request));
   }
 
-  _take(packet) {
-    const take = this["_take_" + packet.kind];
-    if (take) take.call(this, packet);
-    if (packet.kind !== "answer" && packet.kind !== "series") this.unseen += 1;
+  /** What cannot be read or shown is told, and counts as seen: the server sends the next only when it hears of that. */
+  _hear(data) {
+    let packet = null;
+    try {
+      packet = typeof data === "string" ? JSON.parse(data) : unpack(data);
+      const take = this["_take_" + packet.kind];
+      if (take) take.call(this, packet);
+    } catch (error) {
+      console.error(`${packet ? packet.kind : "a message"}: ${error.stack}`);
+      this.player.waiting = false;
+      answer(`What came of the server cannot be shown (${packet ? packet.kind : "a message"}): ${error.message}.`, true);
+    } finally {
+      if (!packet || (packet.kind !== "answer" && packet.kind !== "series")) this.unseen += 1;
+    }
   }
 
   _take_hello(packet) {
