@@ -151,6 +151,8 @@ class Requests(unittest.TestCase):
             push % "[1, 2, NaN]": "no number",
             push % "[1, 2, 1e999]": "number from",
             push % "[1, 2, true]": "number from",
+            push % ("[1, 2, 1%s]" % ("0" * 400)): "number from",
+            push % ("[1, 2, -1%s]" % ("0" * 4000)): "number from",
             push % '[1, 2, "3"]': "number from",
             push.replace("boat", "tank") % "[1, 2, 3]": "boat",
             '{"do": "step", "x": "%s"}' % ("a" * 5000): "4096",
