@@ -470,6 +470,62 @@ class Server(WithBag):
 
         asyncio.run(talk())
 
+    def test_a_page_above_the_number_is_not_obeyed(self):
+        from wavetank.web.server import Server
+
+        class Source:
+            """A tank, as far as the server sees."""
+
+            requests, mode, calls = LIVE, "of a test", []
+            known = staticmethod(lambda: KNOWN)
+            hello = staticmethod(lambda: {"kind": "hello"})
+            greet = staticmethod(lambda mailbox: None)
+
+            def call(self, request):
+                self.calls.append(request)
+
+        async def talk():
+            server, source, stopped = Server("127.0.0.1", 0, 1), Source(), asyncio.Event()
+            work = asyncio.ensure_future(server.serve(source, stopped))
+            connection = await self.connect(url=server.url)
+            await self.next_of(connection, "hello")
+            push = {"do": "push", "body": "boat", "force": [1.0, 0.0, 0.0], "torque": [0.0, 0.0, 0.0]}
+            reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+            head = "GET /socket HTTP/1.1\r\nHost: %s\r\nOrigin: %s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+            text = json.dumps(dict(push, force=[2, 0, 0])).encode()
+            writer.write((head % (server.url[len("http://") : -1], server.url[:-1])).encode() + bytes([0x81, 0x80 | len(text)]) + bytes(4) + text)  # masked by zeros
+            self.assertIn(b"1 pages are open", await asyncio.wait_for(reader.readuntil(b"may be"), 10))
+            await asyncio.sleep(0.1)
+            await connection.write_message(json.dumps(push))
+            self.assertTrue((await self.next_of(connection, "answer"))[0]["ok"])
+            self.assertEqual(source.calls, [push])
+            writer.close()
+            connection.close()
+            stopped.set()
+            await work
+
+        asyncio.run(talk())
+
+    def test_by_any_address_of_this_machine_but_by_no_foreign_name(self):
+        process, url = start_server(self.bag, "--address", "0.0.0.0")
+        self.addCleanup(end, process)
+        port = int(url[:-1].rpartition(":")[2])
+
+        async def talk(url):
+            connection = await self.connect(url=url)
+            await self.next_of(connection, "hello")
+            connection.close()
+
+        own = "http://127.0.0.2:%d/" % port
+        with urllib.request.urlopen(own) as page:
+            self.assertEqual(page.status, 200)
+        asyncio.run(talk(own))
+        for host in ("elsewhere.org:%d" % port, "127.0.0.3"):
+            with self.assertRaises(urllib.error.HTTPError, msg=host) as raised:
+                urllib.request.urlopen(urllib.request.Request(own, headers={"Host": host}))
+            self.assertEqual(raised.exception.code, 403, host)
+            self.assertIn("--name", raised.exception.read().decode())
+
     def test_files(self):
         for name in ("", "page.js", "style.css", "library/three.js", "library/orbit.js", "library/dygraph.js", "library/dygraph.css"):
             with urllib.request.urlopen(self.url + name) as answer:
@@ -491,6 +547,7 @@ class Server(WithBag):
     def test_what_is_wrong_is_one_sentence(self):
         self.assertIn("is taken", self.refused(self.bag, "--port", self.host.rpartition(":")[2]))
         self.assertIn("no address of this machine", self.refused(self.bag, "--port", "0", "--address", "203.0.113.1"))
+        self.assertIn("is empty", self.refused(self.bag, "--port", "0", "--address", ""))
         self.assertIn("0 to 65535", self.refused(self.bag, "--port", "99999"))
         self.assertIn("there is no bag", self.refused(self.bag + ".not", "--port", "0"))
         dry = self.bag + ".dry.bag"

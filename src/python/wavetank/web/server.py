@@ -17,7 +17,7 @@ import tornado.websocket
 from wavetank import Failure
 from wavetank.web.libraries import JAVASCRIPT, LIBRARIES, library_path
 from wavetank.web.mailbox import Mailbox
-from wavetank.web.requests import Refused, origin_is_ours, read_request
+from wavetank.web.requests import Refused, host_name, origin_is_ours, read_request
 
 STATIC = os.path.join(os.path.dirname(os.path.abspath(__file__)), "static")
 AHEAD = 4  # pictures that a client may have been sent and not yet drawn: what lies in buffers on the way is old when it comes
@@ -94,7 +94,7 @@ class Client(tornado.websocket.WebSocketHandler):
         self.busy, self.requests, self.ahead = asyncio.Lock(), 0, 0
 
     def check_origin(self, origin):
-        return origin_is_ours(origin, self.request.host, self.server.names)
+        return origin_is_ours(origin, self.request.host, names_for(self.request, self.server.names))
 
     async def get(self, *arguments, **named):
         # tornado lets a client without an Origin pass: browsers send one always
@@ -211,9 +211,17 @@ class Client(tornado.websocket.WebSocketHandler):
 class Files(tornado.web.StaticFileHandler):
     """The page's own files, and those of the libraries that it has."""
 
+    def prepare(self):
+        """A page that was asked for by a name that is not ours could do nothing."""
+        host = self.request.host
+        if host_name(host) not in names_for(self.request, self.application.settings["names"]):
+            self.set_status(403)
+            self.set_header("Content-Type", "text/plain; charset=utf-8")
+            self.finish("This server does not go by the name '%s': open the page by its address, or start the server with --name of that name." % host_name(host))
+
     def set_extra_headers(self, path):
-        host = self.request.host if origin_is_ours("http://" + self.request.host, self.request.host, self.application.settings["names"]) else ""
-        self.set_header("Content-Security-Policy", "default-src 'self'; connect-src 'self' ws://%s; img-src 'self' data:; style-src 'self' 'unsafe-inline'" % host)
+        csp = "default-src 'self'; connect-src 'self' ws://%s; img-src 'self' data:; style-src 'self' 'unsafe-inline'"
+        self.set_header("Content-Security-Policy", csp % self.request.host)
         self.set_header("X-Content-Type-Options", "nosniff")
         self.set_header("X-Frame-Options", "DENY")
         self.set_header("Cache-Control", "no-cache")
@@ -241,7 +249,18 @@ def own_names(address):
     return names
 
 
+def names_for(request, names):
+    """And the address of this machine that it was reached by, of which it may have more than its own name tells."""
+    try:
+        reached = request.connection.stream.socket.getsockname()[0].lower().partition("%")[0]
+    except (AttributeError, OSError):  # it has gone
+        return names
+    return names | {reached, reached[len("::ffff:") :] if reached.startswith("::ffff:") else reached}
+
+
 def bind(address, port):
+    if not address.strip():
+        raise Failure("--address is empty: it is an address of this machine, or 0.0.0.0 for all that it has")
     if not 0 <= port <= 65535:
         raise Failure("--port is a number from 0 to 65535, not %d" % port)
     try:
