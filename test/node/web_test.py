@@ -2,6 +2,8 @@
 """The page in the browser: what is sent, what may be asked for, and a bag as a user sees it."""
 
 import asyncio
+import http.client
+import io
 import json
 import math
 import os
@@ -15,6 +17,7 @@ import unittest
 import unittest.mock
 import urllib.error
 import urllib.request
+import xml.parsers.expat
 
 import numpy
 import rosbag
@@ -30,6 +33,7 @@ from wavetank.bag_file import BagFile
 from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
 from wavetank.web.drawing import Drawing
+from wavetank.web.live import Live
 from wavetank.web.mailbox import Mailbox
 from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
 from wavetank.web.replay import Replay
@@ -339,6 +343,81 @@ class Messages(WithBag):
                 header, arrays = unpack(replay.pictures(time, "free_surface")["lines"])
                 self.assertEqual([arrays[part["points"]][5] for part in header["parts"]], heights, "%s %g" % (bag, time))
             self.assertEqual(len(unpack(replay.pictures(0.9, "free_surface")["lines"])[0]["parts"]), 1)
+
+
+class Came:
+    """A message as rospy.AnyMsg has it."""
+
+    def __init__(self, message, cut=None):
+        self._connection_header = {"type": message._type, "md5sum": message._md5sum, "message_definition": message._full_text}
+        buffer = io.BytesIO()
+        message.serialize(buffer)
+        self._buff = buffer.getvalue()[:cut]
+
+
+class LiveTank(unittest.TestCase):
+    """A tank that runs as the page's source, its topics played by hand."""
+
+    def setUp(self):
+        self.sent, self.heard = [], {}
+        self.warned = []
+
+        def subscribe(topic, kind, hear, callback_args=None, **more):
+            self.heard[topic] = hear if callback_args is None else lambda message: hear(message, callback_args)
+            return unittest.mock.Mock()
+
+        patches = (
+            unittest.mock.patch("rospy.Subscriber", subscribe),
+            unittest.mock.patch("rospy.Publisher"),
+            unittest.mock.patch("rospy.get_published_topics", lambda: [("/wavetank/probes", "wavetank/ProbeArray"), ("/wavetank/bodies/boat/odom", "nav_msgs/Odometry")]),
+            unittest.mock.patch("rospy.logwarn", lambda text, *values: self.warned.append(text % values)),
+        )
+        for patch in patches:
+            patch.start()
+            self.addCleanup(patch.stop)
+        self.live = Live("wavetank", lambda kind, packet: self.sent.append((kind, packet)))
+        self.live.look_around()
+
+    def hear(self, name, message, cut=None):
+        self.heard["/wavetank/" + name](Came(message, cut))
+
+    def probe(self, stamp, names=("P1",), pressures=(0.0,), cut=None):
+        message = ProbeArray(names=list(names), positions=[Point() for _ in names], pressures=list(pressures))
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        self.hear("probes", message, cut)
+
+    def samples(self):
+        return [(times.tolist(), values.ravel().tolist(), clear) for _, times, values, clear in self.live.samples()]
+
+    def pose(self, x, cut=None):
+        odometry = Odometry()
+        odometry.pose.pose.position.x, odometry.pose.pose.orientation.w = x, 1.0
+        self.hear("bodies/boat/odom", odometry, cut)
+
+    def test_what_cannot_be_read_is_left_out_and_told_once(self):
+        self.probe(1.0, pressures=[5.0])
+        self.assertEqual(self.samples(), [([1.0], [5.0], True)])
+        for n in range(2):
+            self.probe(1.1, pressures=[])  # a name without a value
+            self.assertEqual(self.samples(), [])
+            self.probe(1.1, cut=30)
+            self.assertEqual(self.samples(), [])
+            for x, cut in ((1.0, 40), (math.nan, None)):
+                self.pose(x, cut)
+                self.assertEqual(self.live.poses()["poses"], {})
+            self.hear("case", String("title: a"), cut=2)
+        self.probe(1.2, names=[], pressures=[])  # nothing is measured
+        self.probe(1.3, pressures=[6.0])
+        self.assertEqual(self.samples(), [([1.3], [6.0], False)])
+        self.pose(2.0)
+        self.assertEqual(self.live.poses()["poses"], {"boat": [2.0, 0, 0, 0, 0, 0, 1]})
+        self.assertEqual([text.split()[0] for text in self.warned], ["/wavetank/probes", "/wavetank/bodies/boat/odom", "/wavetank/case"])
+
+    def test_a_master_that_is_none(self):
+        for error in (http.client.BadStatusLine("x"), xml.parsers.expat.ExpatError("x"), ConnectionRefusedError()):
+            with unittest.mock.patch("rospy.get_published_topics", unittest.mock.Mock(side_effect=error)):
+                self.live.look_around()
+            self.assertFalse(self.sent[-1][1]["master"])
 
 
 @unittest.skipIf(NO_SERVER, NO_SERVER)

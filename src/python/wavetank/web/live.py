@@ -1,7 +1,9 @@
 """A tank that runs as the page's source: topics are taken as the bytes that come, and turned into numbers by the reader of bags, many at a time."""
 
+import http.client
 import threading
 import time
+import xml.parsers.expat
 import xmlrpc.client
 from collections import deque
 
@@ -39,7 +41,10 @@ class Instrument:
         came = [self.came.popleft() for _ in range(len(self.came))]
         if not came:
             return None
-        times, values = self._decoded(came)
+        decoded = self._decoded(came)
+        if decoded is None:
+            return None
+        times, values = decoded
         clear = self.history is None or bool(len(self.history) and times[0] < self.history.times[-1])
         if clear:
             self.history = Series(len(self.table["columns"]), HISTORY)
@@ -47,6 +52,7 @@ class Instrument:
         return times, values, clear
 
     def _decoded(self, came):
+        """None where nothing is measured: a table without columns."""
         (kind, types), pieces = came[-1][0], []
         by_length = {}
         for _, data in came:
@@ -55,7 +61,10 @@ class Instrument:
             rows = numpy.frombuffer(b"".join(rows), numpy.uint8).reshape(len(rows), -1)
             for numbers, texts, _ in decode(types, kind, rows):
                 columns, _ = self._columns_of(numbers, texts)
-                pieces.append((stamp_of(numbers) / 1e9, columns))
+                if columns:
+                    pieces.append((stamp_of(numbers) / 1e9, columns))
+        if not pieces:
+            return None
         table = {"name": self.name, "columns": list(pieces[-1][1]), "units": [unit for _, unit in pieces[-1][1].values()]}
         if table != self.table:
             self.table, self.history = table, None
@@ -75,6 +84,7 @@ class Live:
         self.tank = "/" + tank.strip("/")
         self._publish = publish
         self._types, self._lock = {}, threading.Lock()
+        self._unread = set()  # names of topics of which that was told
         self._drawing, self._case = Drawing(), read_case(None)
         self._instruments, self._subscribers, self._pushes = {}, {}, {}
         self._poses_came, self._poses = {}, {}
@@ -85,7 +95,19 @@ class Live:
         self._subscribe("status", self._status)
 
     def _subscribe(self, name, hear, **more):
-        self._subscribers[name] = rospy.Subscriber(self.tank + "/" + name, rospy.AnyMsg, hear, **more)
+        def hear_safely(message, *arguments):
+            try:
+                hear(message, *arguments)
+            except Exception as error:  # whatever a publisher of that name may send
+                self._leave_out(name, error)
+
+        self._subscribers[name] = rospy.Subscriber(self.tank + "/" + name, rospy.AnyMsg, hear_safely, **more)
+
+    def _leave_out(self, name, error):
+        """Tells once that what a topic sends cannot be read."""
+        if name not in self._unread:
+            self._unread.add(name)
+            rospy.logwarn("%s/%s sends what cannot be read, which is left out: %s: %s", self.tank, name, type(error).__name__, error)
 
     def stop(self):
         for subscriber in list(self._subscribers.values()):
@@ -174,7 +196,7 @@ class Live:
         try:
             topics = rospy.get_published_topics()
             self._master = True
-        except (OSError, rospy.ROSException, xmlrpc.client.Error):
+        except (OSError, rospy.ROSException, xmlrpc.client.Error, http.client.HTTPException, xml.parsers.expat.ExpatError):  # no master, or something else there
             topics, self._master = [], False
         within = self.tank + "/"
         surface = any(topic == within + SURFACE for topic, _ in topics)
@@ -212,7 +234,11 @@ class Live:
     def samples(self):
         """(table, times, values, clear) of each instrument that has new ones."""
         for instrument in list(self._instruments.values()):
-            read = instrument.read()
+            try:
+                read = instrument.read()
+            except Exception as error:  # the same
+                self._leave_out(instrument.name, error)
+                continue
             if read:
                 yield (instrument.table, *read)
 
@@ -220,8 +246,12 @@ class Live:
         """Of all bodies, if any has moved since: the packet, or None."""
         came = [(body, self._poses_came.pop(body)) for body in list(self._poses_came)]
         for body, message in came:
-            pose = self._tree(message)["pose"]["pose"]
-            numbers = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            try:
+                pose = self._tree(message)["pose"]["pose"]
+                numbers = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            except Exception as error:  # the same
+                self._leave_out("bodies/%s/odom" % body, error)
+                continue
             if numbers:
                 self._poses[body] = numbers
         return {"kind": "poses", "poses": dict(self._poses)} if came else None
