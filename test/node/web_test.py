@@ -413,6 +413,54 @@ class LiveTank(unittest.TestCase):
         self.assertEqual(self.live.poses()["poses"], {"boat": [2.0, 0, 0, 0, 0, 0, 1]})
         self.assertEqual([text.split()[0] for text in self.warned], ["/wavetank/probes", "/wavetank/bodies/boat/odom", "/wavetank/case"])
 
+    @unittest.skipIf(NO_SERVER, NO_SERVER)
+    def test_another_tank_begins_with_nothing_of_the_one_before(self):
+        from wavetank.web.server import Hub
+
+        hub, mailbox = Hub(1), Mailbox()
+        hub.run_changed = self.live.forget
+        hub.clients.add(unittest.mock.Mock(mailbox=mailbox, wants=lambda kind: kind != "free_surface"))
+
+        def play():
+            for sent in self.sent:
+                hub.publish(*sent)
+            self.sent.clear()
+            for sample in self.live.samples():
+                hub.add(*sample)
+
+        erase = Marker(action=Marker.DELETEALL)
+        self.hear("case", String("title: first"))
+        self.hear("markers", MarkerArray([erase, box_marker("tank", "tank", (0, 0, 0), (1, 1, 1), (1, 1, 1, 1))]))
+        self.hear("markers", MarkerArray([box_marker("moorings", "tank", (0, 0, 0), (1, 1, 1), (1, 1, 1, 1))]))
+        self.probe(1.0)
+        self.pose(1.0)
+        play()
+        hub.publish("poses", self.live.poses())
+        hub.publish("particles", b"first")
+        hub.publish("free_surface", b"nobody wants it")
+        self.hear("case", String("title: first"))  # as it comes again when the connection breaks
+        play()
+        self.assertEqual(set(hub.newest), {"hello", "drawing", "lines", "silence", "poses", "particles"})
+
+        self.hear("case", String("title: second"))
+        self.hear("markers", MarkerArray([erase, box_marker("tank", "tank", (0, 0, 0), (2, 1, 1), (1, 1, 1, 1))]))
+        play()
+        self.assertEqual(set(hub.newest), {"hello", "drawing", "silence"})
+        self.assertEqual(json.loads(hub.newest["hello"])["title"], "second")
+        late = Mailbox()
+        self.live.greet(late)
+        self.assertEqual(late.take(), (None, False))
+        self.probe(0.5)
+        play()
+        taken = []
+        while True:
+            packet, _ = mailbox.take()
+            if packet is None:
+                break
+            taken.append(unpack(packet)[0] if isinstance(packet, bytes) else json.loads(packet))
+        self.assertEqual([packet.get("title", packet["kind"]) for packet in taken], ["first", "first", "second", "series", "silence", "drawing"])
+        self.assertEqual((taken[2]["run"] - taken[1]["run"], taken[3]["clear"]), (1, True))
+
     def test_a_master_that_is_none(self):
         for error in (http.client.BadStatusLine("x"), xml.parsers.expat.ExpatError("x"), ConnectionRefusedError()):
             with unittest.mock.patch("rospy.get_published_topics", unittest.mock.Mock(side_effect=error)):

@@ -36,6 +36,10 @@ class Instrument:
         self.came = deque(maxlen=WAITING)
         self.table, self.history = None, None
 
+    def forget(self):
+        self.came.clear()
+        self.table, self.history = None, None
+
     def read(self):
         """(times, values, clear) of what has come since, with the history brought up to it; clear: the history before is of another run. None without any."""
         came = [self.came.popleft() for _ in range(len(self.came))]
@@ -86,6 +90,7 @@ class Live:
         self._types, self._lock = {}, threading.Lock()
         self._unread = set()  # names of topics of which that was told
         self._drawing, self._case = Drawing(), read_case(None)
+        self._text, self._run = None, 0  # of the case, and how many times it has been another one
         self._instruments, self._subscribers, self._pushes = {}, {}, {}
         self._poses_came, self._poses = {}, {}
         self._has_surface, self._master = False, True
@@ -133,7 +138,10 @@ class Live:
         self._publish(kind, packet)
 
     def _case_came(self, message):
-        self._case = read_case(self._tree(message)["data"])
+        text = self._tree(message)["data"]
+        if self._text not in (None, text):
+            self._run += 1
+        self._text, self._case = text, read_case(text)
         for body in self._case["free"]:
             if body not in self._pushes:
                 self._pushes[body] = rospy.Publisher("%s/bodies/%s/external_wrench" % (self.tank, body), WrenchStamped, queue_size=1)
@@ -175,6 +183,7 @@ class Live:
     def hello(self):
         return {
             "kind": "hello",
+            "run": self._run,
             "mode": self.mode,
             "source": self.tank,
             "tank": self.tank,
@@ -187,9 +196,16 @@ class Live:
         }
 
     def greet(self, mailbox):
-        for instrument in self._instruments.values():
+        for instrument in list(self._instruments.values()):
             if instrument.history is not None:
                 mailbox.add(instrument.table, instrument.history.times, instrument.history.values, clear=True)
+
+    def forget(self):
+        """What came of another tank, whose samples and bodies are not this one's."""
+        self._poses_came.clear()
+        self._poses.clear()
+        for instrument in list(self._instruments.values()):
+            instrument.forget()
 
     def look_around(self):
         """Once a second: subscribes to what the tank has; tells what does not answer."""

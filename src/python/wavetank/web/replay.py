@@ -66,6 +66,7 @@ class Replay:
         stamps = sorted({stamp for messages in self._clouds.values() for stamp in messages.stamps.tolist()} | {stamp for stamp, _ in self._surface})
         return {
             "kind": "hello",
+            "run": 0,
             "mode": self.mode,
             "source": os.path.basename(self._recording.path),
             "tank": self._recording.namespace,

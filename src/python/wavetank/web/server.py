@@ -26,6 +26,7 @@ LONGEST_MESSAGE = 65536  # bytes, of a client; a longer one ends its connection
 SAMPLES_EVERY, POSES_EVERY, LOOK_EVERY = 0.1, 0.05, 1.0  # s of wall time
 FULL, GOING_AWAY = 1013, 1001  # of RFC 6455
 KEPT = ("hello", "drawing", "lines", "status", "silence", "poses")  # kinds whose newest a new client gets, beside the water that it asks for
+WATERS = ("particles", "free_surface", "surface", "spray")  # kinds of which a client wants one alone, and with the surface its spray
 
 
 async def in_thread(function, *arguments):
@@ -61,16 +62,39 @@ class Hub:
     def __init__(self, most_clients):
         self.most_clients = most_clients
         self.clients, self.newest = set(), {}
-        self.wanted_changed = lambda wanted: None
+        self.run = 0  # of the hello that came last
+        self.wanted_changed, self.run_changed = lambda wanted: None, lambda: None
 
     def publish(self, kind, packet):
         """A picture, to all that want it. In the loop's thread."""
+        if kind == "hello" and packet["run"] != self.run:
+            self.run = packet["run"]
+            self.forget()
+        if kind == "drawing":  # the whole: what was drawn beside the one before is no more
+            self.drop("lines")
         packet = text_of(packet)
-        self.newest[kind] = packet
-        for client in self.clients:
-            if client.wants(kind):
+        wanting = [client for client in self.clients if client.wants(kind)]
+        if kind in KEPT or wanting:
+            self.newest[kind] = packet
+        for client in wanting:
+            if kind == "hello":
+                client.mailbox.answer(packet)  # before all that belongs to it
+            else:
                 client.mailbox.put(kind, packet)
-                client.wake.set()
+            client.wake.set()
+
+    def forget(self):
+        """What is of the tank before: the drawing that comes of another takes the place of the one before by itself, and may have come already."""
+        for kind in [*WATERS, "lines", "poses", "status"]:
+            self.drop(kind)
+        for client in self.clients:
+            client.mailbox.drop_samples()
+        self.run_changed()
+
+    def drop(self, kind):
+        self.newest.pop(kind, None)
+        for client in self.clients:
+            client.mailbox.drop(kind)
 
     def add(self, table, times, values, clear):
         for client in self.clients:
@@ -79,7 +103,7 @@ class Hub:
 
     def tell_wanted(self):
         wanted = {client.water for client in self.clients} - {None}
-        for name in ("particles", "free_surface", "surface", "spray"):
+        for name in WATERS:
             if name not in wanted and not (name == "spray" and "surface" in wanted):
                 self.newest.pop(name, None)
         self.wanted_changed(wanted)
@@ -109,12 +133,12 @@ class Client(tornado.websocket.WebSocketHandler):
         if len(self.hub.clients) >= self.hub.most_clients:
             self.close(FULL, "%d pages are open, and no more may be" % self.hub.most_clients)
             return
-        self.hub.clients.add(self)
         self.mailbox.answer(text_of(self.source.hello()))  # before all else
         for kind in KEPT:
             if kind in self.hub.newest and kind != "hello":
                 self.mailbox.put(kind, self.hub.newest[kind])
         self.source.greet(self.mailbox)
+        self.hub.clients.add(self)  # last: what fails before is closed, and must not count
         self.sender = asyncio.ensure_future(self.send())
         self.wake.set()
 
@@ -192,7 +216,7 @@ class Client(tornado.websocket.WebSocketHandler):
         return ""
 
     def show(self, water):
-        for kind in ("particles", "free_surface", "surface", "spray"):
+        for kind in WATERS:
             self.mailbox.drop(kind)
         self.water = water
         self.hub.tell_wanted()
@@ -326,7 +350,7 @@ class Server:
     def _works(self):
         if self.source.mode != "live":
             return []
-        self.hub.wanted_changed = self.source.show
+        self.hub.wanted_changed, self.hub.run_changed = self.source.show, self.source.forget
         return [self._every(SAMPLES_EVERY, self._send_samples), self._every(POSES_EVERY, self._send_poses), self._look()]
 
     async def _every(self, seconds, work):

@@ -81,8 +81,11 @@ class Page {
   }
 
   _take_hello(packet) {
-    if (this.lost) {  // what was sent before the connection broke comes again
+    if (this.lost || (this.hello && this.hello.run !== packet.run)) {  // what was sent before the connection broke comes again, of another tank nothing does
       this.plots.clear();
+      this.view.forget();
+      this.status = this.time = null;
+      this.what = undefined;
       answer("");
       this.lost = false;
     }
