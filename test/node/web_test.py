@@ -28,7 +28,7 @@ from page_browser import MISSING, NO_SERVER, WEB, Browser, end, start_server
 from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
-from wavetank.msg import ProbeArray
+from wavetank.msg import ProbeArray, SolverStatus
 from wavetank.bag_file import BagFile
 from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
@@ -460,6 +460,35 @@ class LiveTank(unittest.TestCase):
             taken.append(unpack(packet)[0] if isinstance(packet, bytes) else json.loads(packet))
         self.assertEqual([packet.get("title", packet["kind"]) for packet in taken], ["first", "first", "second", "series", "silence", "drawing"])
         self.assertEqual((taken[2]["run"] - taken[1]["run"], taken[3]["clear"]), (1, True))
+
+    def status(self, stamp, time):
+        message = SolverStatus(time=time, phase=SolverStatus.RUNNING)
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        self.hear("status", message)
+
+    def test_after_a_reset_samples_begin_at_time_0(self):
+        self.status(0.5, 0.5)
+        self.probe(0.0, pressures=[1.0])
+        self.probe(2.25, pressures=[2.0])
+        self.assertEqual(self.samples(), [([0.0, 2.25], [1.0, 2.0], True)])
+        self.status(2.25, 2.25)
+        self.probe(3.0, pressures=[3.0])  # whose status is still on its way
+        self.assertEqual(self.samples(), [([3.0], [3.0], False)])
+        self.probe(3.5, pressures=[4.0])
+        self.status(3.5, 0.5)
+        self.assertEqual(self.samples(), [([0.0, 0.5], [3.0, 4.0], True)])
+        self.probe(3.75, pressures=[5.0])
+        self.assertEqual(self.samples(), [([0.75], [5.0], False)])
+        mailbox = Mailbox()
+        self.live.greet(mailbox)
+        self.assertEqual(unpack(mailbox.take()[0])[1]["times"].tolist(), [0.0, 0.5, 0.75])
+        self.status(4.0, 0.0)  # and again, with nothing sampled yet
+        self.assertEqual(self.samples(), [([], [], True)])
+        self.status(0.25, 0.25)  # the node was started again
+        self.probe(0.25, pressures=[6.0])
+        self.samples()
+        self.probe(0.5, pressures=[7.0])
+        self.assertEqual(self.samples(), [([0.5], [7.0], False)])
 
     def test_a_master_that_is_none(self):
         for error in (http.client.BadStatusLine("x"), xml.parsers.expat.ExpatError("x"), ConnectionRefusedError()):

@@ -34,18 +34,30 @@ class Instrument:
     def __init__(self, name, columns_of):
         self.name, self._columns_of = name, columns_of
         self.came = deque(maxlen=WAITING)
-        self.table, self.history = None, None
+        self.table, self.history, self._start = None, None, 0.0
 
     def forget(self):
         self.came.clear()
         self.table, self.history = None, None
 
+    def begin(self, start):
+        """Another run has begun, whose time 0 is this ROS time (s): what is before it is of the run before. Its samples, as read() has them, or None."""
+        before, self._start = self.history, start
+        if before is None:
+            return None
+        self.history = Series(len(self.table["columns"]), HISTORY)
+        of_run = before.times >= start
+        self.history.add(before.times[of_run], before.values[of_run])
+        return (*self.told(), True)
+
+    def told(self):
+        """(times, values) of the history: simulated time, s."""
+        return self.history.times - self._start, self.history.values
+
     def read(self):
         """(times, values, clear) of what has come since, with the history brought up to it; clear: the history before is of another run. None without any."""
         came = [self.came.popleft() for _ in range(len(self.came))]
-        if not came:
-            return None
-        decoded = self._decoded(came)
+        decoded = self._decoded(came) if came else None
         if decoded is None:
             return None
         times, values = decoded
@@ -53,7 +65,7 @@ class Instrument:
         if clear:
             self.history = Series(len(self.table["columns"]), HISTORY)
         self.history.add(times, values)
-        return times, values, clear
+        return times - self._start, values, clear
 
     def _decoded(self, came):
         """None where nothing is measured: a table without columns."""
@@ -95,6 +107,7 @@ class Live:
         self._poses_came, self._poses = {}, {}
         self._has_surface, self._master = False, True
         self._cloud_stamps, self._status_came = {}, None
+        self._start, self._start_told = 0.0, 0.0  # ROS time of simulated time 0, s: as samples are told, and as the tank said last
         self._subscribe("markers", self._drawn)
         self._subscribe("case", self._case_came)
         self._subscribe("status", self._status)
@@ -150,6 +163,8 @@ class Live:
     def _status(self, message):
         self._status_came = time.monotonic()
         status = self._tree(message)
+        # a reset sets the simulation's time back, while stamps go on from a whole second
+        self._start_told = float(round(stamp_of_header(status) / 1e9 - float(status["time"])))
         told = {name: plain(status[name]) for name in STATUS + RATES if name in status}
         self._publish("status", dict(told, kind="status", stamp=stamp_of_header(status) / 1e9))
 
@@ -198,7 +213,7 @@ class Live:
     def greet(self, mailbox):
         for instrument in list(self._instruments.values()):
             if instrument.history is not None:
-                mailbox.add(instrument.table, instrument.history.times, instrument.history.values, clear=True)
+                mailbox.add(instrument.table, *instrument.told(), clear=True)
 
     def forget(self):
         """What came of another tank, whose samples and bodies are not this one's."""
@@ -231,7 +246,9 @@ class Live:
             body = name.split("/")[1]
             self._subscribe(name, self._pose, callback_args=body, queue_size=1)
         elif is_plotted(name):
-            instrument = self._instruments[name] = Instrument(name, columns_of)
+            instrument = Instrument(name, columns_of)
+            instrument.begin(self._start)
+            self._instruments[name] = instrument
             self._subscribe(name, lambda message: instrument.came.append((self._definition(message), message._buff)), tcp_nodelay=True)
 
     def show(self, wanted):
@@ -248,13 +265,16 @@ class Live:
                 self._cloud_stamps.pop(name, None)
 
     def samples(self):
-        """(table, times, values, clear) of each instrument that has new ones."""
+        """(table, times, values, clear) of each instrument that has new ones, or whose run has begun again."""
+        begins, self._start = self._start_told != self._start, self._start_told
         for instrument in list(self._instruments.values()):
             try:
                 read = instrument.read()
             except Exception as error:  # the same
                 self._leave_out(instrument.name, error)
-                continue
+                read = None
+            if begins:
+                read = instrument.begin(self._start)
             if read:
                 yield (instrument.table, *read)
 

@@ -14,6 +14,7 @@ class Page {
     this.status = null;
     this.paused = false;
     this.time = null;
+    this.start = 0;  // s, of the ROS time that pictures of a tank have, where its time 0 is: a reset sets it on
     this.unseen = 0;  // pictures that the server is to be told of when they are drawn
     this.player = { time: 0, playing: false, waiting: false, asked: null };
     this._listen();
@@ -135,7 +136,7 @@ class Page {
   _arrived(packet, what) {
     this.received = (this.received || 0) + 1;
     this.what = what;
-    this._setTime(packet.time);
+    this._setTime(packet.time - this.start);
     if (!this.broken) notice("");
     this._showFacts();
   }
@@ -147,7 +148,11 @@ class Page {
   _take_status(packet) {
     this.status = packet;
     this.paused = Boolean(packet.paused);
-    if (packet.stamp > (this.time || 0) || this.what === undefined) this._setTime(packet.stamp);
+    const start = Math.round(packet.stamp - packet.time);
+    if (start !== this.start || packet.time > (this.time || 0) || this.what === undefined) {
+      this.start = start;
+      this._setTime(packet.time);
+    }
     if (packet.failure) answer(packet.failure, true);
     this._showState();
     this._showFacts();

@@ -102,7 +102,7 @@ class Plot {
   }
 
   redraw() {
-    if (!(this.changed || this.moved) || this.element.hidden || !this.rows.length) return;
+    if (!(this.changed || this.moved) || this.element.hidden || (!this.rows.length && !this.graph)) return;
     this._drawValues();
     if (this.changed) this._drawGraph();
     this.changed = this.moved = false;
@@ -110,9 +110,9 @@ class Plot {
   }
 
   _drawValues() {
-    const row = this.row();
+    const row = this.row() || [];
     this.values.innerHTML = this.labels.map((label, n) =>
-      `<span><i style="background:${PLOT_COLOURS[n % PLOT_COLOURS.length]}"></i>${escaped(short(label))} ${figures(row[n + 1])}</span>`).join("");
+      `<span><i style="background:${PLOT_COLOURS[n % PLOT_COLOURS.length]}"></i>${escaped(short(label))} ${figures(row.length ? row[n + 1] : NaN)}</span>`).join("");
   }
 
   _drawGraph() {
@@ -124,7 +124,7 @@ class Plot {
         drawCallback: () => this._place(),
       });
     } else {
-      this.graph.updateOptions({ file: this.rows });
+      this.graph.updateOptions({ file: this.rows.length ? this.rows : [[0, ...this.labels.map(() => NaN)]] });  // it takes no empty one
     }
   }
 
