@@ -13,6 +13,8 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
 import unittest.mock
 import urllib.error
@@ -345,6 +347,28 @@ class Messages(WithBag):
             self.assertEqual(len(unpack(replay.pictures(0.9, "free_surface")["lines"])[0]["parts"]), 1)
 
 
+class MadeTank:
+    """A tank as the server's source, which does nothing by itself."""
+
+    requests, mode = LIVE, "of a test"
+
+    def __init__(self):
+        self.run, self.calls = 0, []
+
+    def known(self):
+        return KNOWN
+
+    def hello(self):
+        hello = {"kind": "hello", "run": self.run, "mode": "live", "source": "/wavetank", "tank": "/wavetank", "title": "run %d" % self.run, "dimensions": 3, "spacing": 0.1}
+        return dict(hello, waters=KNOWN["waters"], bodies=[{"name": "boat", "mass": 1.0}], times=[])
+
+    def greet(self, mailbox):
+        pass
+
+    def call(self, request):
+        self.calls.append(request)
+
+
 class Came:
     """A message as rospy.AnyMsg has it."""
 
@@ -629,19 +653,8 @@ class Server(WithBag):
     def test_a_page_above_the_number_is_not_obeyed(self):
         from wavetank.web.server import Server
 
-        class Source:
-            """A tank, as far as the server sees."""
-
-            requests, mode, calls = LIVE, "of a test", []
-            known = staticmethod(lambda: KNOWN)
-            hello = staticmethod(lambda: {"kind": "hello"})
-            greet = staticmethod(lambda mailbox: None)
-
-            def call(self, request):
-                self.calls.append(request)
-
         async def talk():
-            server, source, stopped = Server("127.0.0.1", 0, 1), Source(), asyncio.Event()
+            server, source, stopped = Server("127.0.0.1", 0, 1), MadeTank(), asyncio.Event()
             work = asyncio.ensure_future(server.serve(source, stopped))
             connection = await self.connect(url=server.url)
             await self.next_of(connection, "hello")
@@ -771,6 +784,72 @@ class InTheBrowser(WithBag):
         browser.wait("wavetank.time === 0.4")
         browser.quit()
         self.assertEqual(end(process), 0)
+
+    def test_a_tank_that_is_reset_falls_silent_and_is_another(self):
+        from selenium.webdriver import ActionChains
+        from wavetank.web.server import Server
+
+        source, ready, running = MadeTank(), threading.Event(), {}
+
+        async def serve():
+            running.update(server=Server("127.0.0.1", 0, 1), stopped=asyncio.Event(), loop=asyncio.get_running_loop())
+            ready.set()
+            await running["server"].serve(source, running["stopped"])
+
+        thread = threading.Thread(target=asyncio.run, args=(serve(),))
+        thread.start()
+        ready.wait()
+        hub = running["server"].hub
+
+        def do(function, *arguments):
+            running["loop"].call_soon_threadsafe(function, *arguments)
+
+        def status(stamp, time):
+            do(hub.publish, "status", {"kind": "status", "stamp": stamp, "time": time, "step": 1, "phase": 1, "paused": False, "real_time_factor": None})
+
+        def silent(is_so):
+            do(hub.publish, "silence", {"kind": "silence", "silent": is_so, "master": True})
+
+        def sample(times, clear):
+            do(hub.add, {"name": "probes", "columns": ["P"], "units": ["Pa"]}, numpy.array(times), numpy.array([times]).T, clear)
+
+        self.addCleanup(thread.join)
+        self.addCleanup(do, running["stopped"].set)
+        browser = Browser()
+        self.addCleanup(browser.quit)
+        browser.driver.get(running["server"].url)
+        browser.wait("window.wavetank && wavetank.hello")
+        clock, values = "document.getElementById('clock').textContent", "document.querySelector('.plot .values').textContent"
+        status(5.5, 5.5)
+        sample([1.0, 2.0], True)
+        browser.wait("wavetank.plots.all.size && %s === 't = 5.500 s' && %s === 'P 2'" % (clock, values))
+        status(6.0, 0.0)
+        sample([], True)
+        browser.wait("%s === 't = 0.000 s' && %s === 'P –'" % (clock, values))
+        sample([0.5], False)
+        browser.wait(values + " === 'P 0.5'")
+
+        silent(False)
+        button = browser.driver.find_element("css selector", "#pushes button")
+        browser.wait("!document.querySelector('#pushes button').disabled")
+        ActionChains(browser.driver).click_and_hold(button).perform()
+        while len(source.calls) < 3:
+            time.sleep(0.01)
+        silent(True)  # so that the button is disabled while it is held
+        browser.wait("document.querySelector('#pushes button').disabled")
+        time.sleep(0.3)
+        self.assertEqual(source.calls[-1]["force"], [0, 0, 0])
+        pushes = len(source.calls)
+        ActionChains(browser.driver).release().perform()
+        silent(False)
+        time.sleep(0.3)
+        self.assertEqual(len(source.calls), pushes, "it is not held any more")
+
+        source.run = 1
+        do(hub.publish, "hello", source.hello())
+        browser.wait("document.title.startsWith('run 1') && !wavetank.plots.all.size")
+        self.assertEqual(browser.errors(), [])
+        browser.quit()
 
 
 if __name__ == "__main__":

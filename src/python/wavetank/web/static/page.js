@@ -219,6 +219,7 @@ class Page {
     find("step").disabled = !alive || !stands;
     find("pause").textContent = stands ? (this.replay ? "Play" : "Continue") : "Pause";
     for (const button of document.querySelectorAll("#pushes button")) button.disabled = !alive;
+    if (!alive && this.endPush) this.endPush();
   }
 
   _listWaters(waters) {
@@ -333,24 +334,26 @@ class Page {
   _holdToPush(button) {
     const direction = button.dataset.push.split(" ").map(Number);
     let timer = null;
-    const begin = (event) => {
-      event.preventDefault();
-      if (button.disabled || timer) return;
-      button.classList.add("held");
-      this.push(direction);
-      timer = setInterval(() => this.push(direction), PUSH_EVERY);
-    };
     const end = () => {
       if (!timer) return;
       clearInterval(timer);
-      timer = null;
+      timer = this.endPush = null;
       button.classList.remove("held");
       this.push([0, 0, 0]);
     };
+    const begin = (event) => {
+      event.preventDefault();
+      if (button.disabled || timer) return;
+      if (this.endPush) this.endPush();
+      this.endPush = end;
+      button.classList.add("held");
+      this.push(direction);
+      timer = setInterval(() => (button.disabled || button.hidden ? end() : this.push(direction)), PUSH_EVERY);
+    };
     button.addEventListener("pointerdown", begin);
-    for (const name of ["pointerup", "pointerleave", "pointercancel", "blur"]) button.addEventListener(name, end);
+    for (const name of ["pointerleave", "blur"]) button.addEventListener(name, end);
+    for (const name of ["pointerup", "pointercancel", "blur", "keyup"]) window.addEventListener(name, end);  // a button that is disabled meanwhile hears of none
     button.addEventListener("keydown", (event) => { if ((event.key === " " || event.key === "Enter") && !event.repeat) begin(event); });
-    button.addEventListener("keyup", end);
   }
 
   _listen() {
