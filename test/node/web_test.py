@@ -31,6 +31,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 from wavetank.msg import ProbeArray, SolverStatus
+from wavetank import Failure
 from wavetank.bag_file import BagFile
 from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
@@ -38,7 +39,7 @@ from wavetank.web.drawing import Drawing
 from wavetank.web.live import Live
 from wavetank.web.mailbox import Mailbox
 from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
-from wavetank.web.replay import Replay
+from wavetank.web.replay import Replay, read_case
 from wavetank.web.requests import LIVE, REPLAY, Refused, origin_is_ours, read_request
 from wavetank.web.series import Series
 
@@ -327,6 +328,24 @@ class WithBag(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         return done.stderr
+
+
+class Cases(unittest.TestCase):
+    def test_whatever_a_bag_has_in_its_place(self):
+        nothing = {"title": "", "dimensions": 3, "spacing": None, "world_frame": "tank", "free": {}}
+        for text in (None, "", "[", "- a", "3", "tank: water\nbodies: 3", "tank: [1]\nbodies: {a: b}", "fluid: [0.1]", "fluid: {spacing: .nan}", "fluid: {spacing: true}",
+                     "fluid: {spacing: 1%s}" % ("0" * 400), "bodies: [{motion: free}, 3, {name: [a], motion: free}]", "a: 2001-99-99", "? [1]\n: 2", "[" * 5000):  # fmt: skip
+            self.assertEqual(read_case(text), nothing, str(text)[:80])
+        found = read_case("tank: {motion: free, mass: .inf}\nbodies: [{name: a, motion: free, mass: 2}, {name: b}]\nworld_frame: pool\nfluid: {spacing: 0.1}")
+        self.assertEqual(found, dict(nothing, spacing=0.1, world_frame="pool", free={"tank": None, "a": 2.0}))
+
+    def test_a_push_is_along_the_axes_of_the_tank(self):
+        for text, frame in (("bodies: [{name: a, motion: free}]", "tank"), ("bodies: [{name: a, motion: free}]\nworld_frame: pool", "pool")):
+            with unittest.mock.patch("rospy.Subscriber"), unittest.mock.patch("rospy.Publisher") as publisher:
+                live = Live("wavetank", lambda kind, packet: None)
+                live._case_came(Came(String(text)))
+                live.call({"do": "push", "body": "a", "force": [1.0, 0.0, 0.0], "torque": [0.0, 0.0, 0.0]})
+            self.assertEqual(publisher.return_value.publish.call_args[0][0].header.frame_id, frame)
 
 
 class Messages(WithBag):
@@ -722,6 +741,16 @@ class Server(WithBag):
         dry = self.bag + ".dry.bag"
         write_bag(dry, clouds=False)
         self.assertIn("no point clouds: write it with wavetank_run --clouds", self.refused(dry, "--port", "0"))
+        short = self.bag + ".short.bag"
+        for topic, message in (("markers", MarkerArray([Marker()])), ("surface_mesh", Marker()), ("probes", ProbeArray(names=["P1"]))):
+            write_bag(short)
+            with rosbag.Bag(short, "a") as bag:
+                buffer = io.BytesIO()
+                message.serialize(buffer)
+                bag.write("/wavetank/" + topic, (message._type, buffer.getvalue()[:6], message._md5sum, type(message)), rospy.Time(0, 1), raw=True)
+            with self.assertRaises(Failure, msg=topic) as raised:
+                Replay(short)
+            self.assertIn("cannot be read", str(raised.exception))
 
     def test_ends_cleanly_with_a_page_open(self):
         process, url = start_server(self.bag)

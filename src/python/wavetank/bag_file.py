@@ -2,6 +2,7 @@
 thousand a second, and a bag with samples at 1 kHz has hundreds of thousands."""
 
 import bz2
+import contextlib
 import os
 import struct
 
@@ -72,6 +73,14 @@ class BagFile:
         if self.path.endswith(".active"):
             return Failure("'%s' is not whole: it is being written, or the run that wrote it died; then rosbag reindex makes it readable" % self.path)
         return Failure("'%s' is not whole and has no index: rosbag reindex makes it readable" % self.path)
+
+    @contextlib.contextmanager
+    def reading(self, kind):
+        """Raises Failure where messages of that type are not as their definition has them."""
+        try:
+            yield
+        except (IndexError, KeyError, TypeError, ValueError, struct.error):
+            raise Failure("'%s' holds a %s that cannot be read" % (self.path, kind))
 
     def _record(self, place):
         """Fields of the header, and begin and end of the data, of the record at a place."""

@@ -2,6 +2,7 @@
 
 import bisect
 import os
+import sys
 
 import yaml
 
@@ -38,7 +39,8 @@ class Replay:
         if not self.waters:
             raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds, or record:=true clouds:=true of a launch file" % path)
         self._case = read_case(self._recording.text("case"))
-        self._poses = {name.split("/")[1]: Pose(self._recording.table(name)) for name in self._recording.names if name.endswith("/odom")}
+        odometry = [self._recording.table(name) for name in self._recording.names if name.endswith("/odom")]
+        self._poses = {table.name.split("/")[1]: Pose(table) for table in odometry if len(table)}
         self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4, take_recorded=True), Drawing()
         if len(self._drawings):
             self._drawing.follow(self._drawings.read(0))
@@ -49,7 +51,7 @@ class Replay:
         self._markers = self._recording.stream(SURFACE, MARKER)
         found = {"surface": [], "spray": []}
         for n, stamp in enumerate(self._markers.stamps.tolist()):
-            found.get(self._markers.read(n)["ns"], []).append((stamp, n))
+            found.get(self._markers.group(n), []).append((stamp, n))
         return found["surface"], found["spray"]
 
     def _read_series(self, name):
@@ -129,17 +131,26 @@ def read_case(text):
     """What the page wants to know of a case: title, dimensions, spacing (m), free bodies with their mass (kg; None where it is not told); each has a default where
     the bag or node does not tell."""
     try:
-        case = yaml.load(text or "", Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError:
-        case = None
-    case = case if isinstance(case, dict) else {}
-    fluid = case.get("fluid") if isinstance(case.get("fluid"), dict) else {}
-    spacing = fluid.get("spacing")
-    owners = [dict(case.get("tank") or {}, name="tank")] + [body for body in case.get("bodies") or [] if isinstance(body, dict)]
+        case = mapping(yaml.load(text or "", Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)))
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError):  # the loader's own, and those of dates that are none and the like
+        case = {}
+    bodies = case.get("bodies") if isinstance(case.get("bodies"), list) else []
+    owners = [dict(mapping(case.get("tank")), name="tank")] + [body for body in map(mapping, bodies) if isinstance(body.get("name"), str)]
     return {
         "title": str(case.get("title") or ""),
         "dimensions": 2 if case.get("dimensions") == 2 else 3,
-        "spacing": float(spacing) if isinstance(spacing, (int, float)) else None,
-        "world_frame": str(case.get("world_frame") or ""),
-        "free": {str(owner["name"]): owner.get("mass") if isinstance(owner.get("mass"), (int, float)) else None for owner in owners if owner.get("motion") == "free"},
+        "spacing": number_of(mapping(case.get("fluid")).get("spacing")),
+        "world_frame": str(case.get("world_frame") or "tank"),  # the case's default: an empty one would be the body's own in a push
+        "free": {owner["name"]: number_of(owner.get("mass")) for owner in owners if owner.get("motion") == "free"},
     }
+
+
+def mapping(value):
+    return value if isinstance(value, dict) else {}
+
+
+def number_of(value):
+    """A finite one, or None."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
+        return None
+    return float(value)
