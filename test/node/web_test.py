@@ -669,6 +669,40 @@ class Server(WithBag):
 
         asyncio.run(talk())
 
+    def test_what_is_shown_follows_the_newest_wish_and_holds_nothing_up(self):
+        from wavetank.web.server import Server
+
+        class Slow(MadeTank):
+            mode, shown, may_go_on = "live", [], threading.Event()
+            samples = staticmethod(lambda: [])
+            poses = look_around = forget = staticmethod(lambda: None)
+
+            def show(self, wanted):
+                self.shown.append(wanted)
+                self.may_go_on.wait(10)
+
+        async def talk():
+            server, source, stopped = Server("127.0.0.1", 0, 1), Slow(), asyncio.Event()
+            work = asyncio.ensure_future(server.serve(source, stopped))
+            connection = await self.connect(url=server.url)
+            for water in ("particles", "surface", "particles", "surface"):
+                await connection.write_message(json.dumps({"do": "show", "water": water}))
+                self.assertTrue((await self.next_of(connection, "answer"))[0]["ok"])
+            self.assertEqual(source.shown, [{"particles"}], "the first is still waiting")
+            source.may_go_on.set()
+            await asyncio.sleep(0.1)
+            self.assertEqual(source.shown, [{"particles"}, {"surface"}])
+            connection.close()
+            stopped.set()
+            await work
+
+        asyncio.run(talk())
+
+    def test_ends_while_a_bag_is_being_read(self):
+        code = "import os, signal, sys, time; import wavetank.web.replay as replay\nclass Slow:\n  def __init__(self, *more):\n    os.kill(os.getpid(), signal.SIGTERM); time.sleep(30)\nreplay.Replay = Slow\nfrom wavetank.web import command\nfrom wavetank import program\nsys.exit(program.run('web', command.main, ['any.bag', '--port', '0']))"
+        done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=20)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
     def test_a_page_above_the_number_is_not_obeyed(self):
         from wavetank.web.server import Server
 

@@ -46,7 +46,7 @@ def make_live(options, publish):
 
 async def serve(options):
     from wavetank.web.replay import Replay
-    from wavetank.web.server import Server
+    from wavetank.web.server import Server, in_thread
 
     loop, stopped = asyncio.get_running_loop(), asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -59,7 +59,13 @@ async def serve(options):
         except RuntimeError:  # the loop has ended
             pass
 
-    source = Replay(options.bag, options.namespace) if options.bag else make_live(options, publish)
+    # in a thread, so that it can be ended meanwhile: a large bag takes a while, and a ROS master may not answer
+    make = (Replay, options.bag, options.namespace) if options.bag else (make_live, options, publish)
+    made, ended = asyncio.ensure_future(in_thread(*make)), asyncio.ensure_future(stopped.wait())
+    await asyncio.wait({made, ended}, return_when=asyncio.FIRST_COMPLETED)
+    if not made.done():
+        return
+    source = made.result()
     print("%s shows %s" % (server.url, options.bag or options.tank), flush=True)
     try:
         await server.serve(source, stopped)

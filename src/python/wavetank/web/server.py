@@ -308,6 +308,7 @@ class Server:
         self.names = own_names(address) | {name.lower() for name in names}
         self.hub, self.source = Hub(most_clients), None
         self._turn = asyncio.Lock()
+        self._wanted, self._wish = set(), asyncio.Event()
         shown = "localhost" if address in ("127.0.0.1", "::1") else socket.gethostname() if address in ("0.0.0.0", "::", "") else address
         self.url = "http://%s:%d/" % ("[%s]" % shown if ":" in shown else shown, self.port)
 
@@ -350,8 +351,22 @@ class Server:
     def _works(self):
         if self.source.mode != "live":
             return []
-        self.hub.wanted_changed, self.hub.run_changed = self.source.show, self.source.forget
-        return [self._every(SAMPLES_EVERY, self._send_samples), self._every(POSES_EVERY, self._send_poses), self._look()]
+        self.hub.wanted_changed, self.hub.run_changed = self._want, self.source.forget
+        return [self._every(SAMPLES_EVERY, self._send_samples), self._every(POSES_EVERY, self._send_poses), self._look(), self._show()]
+
+    def _want(self, wanted):
+        self._wanted = wanted
+        self._wish.set()
+
+    async def _show(self):
+        """One wish after the other, the newest alone: a subscription waits for the ROS master, which may not answer."""
+        while True:
+            await self._wish.wait()
+            self._wish.clear()
+            try:
+                await in_thread(self.source.show, self._wanted)
+            except Exception:
+                logging.getLogger("wavetank.web").exception("what is shown cannot be changed")
 
     async def _every(self, seconds, work):
         while True:
