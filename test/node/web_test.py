@@ -365,6 +365,19 @@ class Messages(WithBag):
                 self.assertEqual([arrays[part["points"]][5] for part in header["parts"]], heights, "%s %g" % (bag, time))
             self.assertEqual(len(unpack(replay.pictures(0.9, "free_surface")["lines"])[0]["parts"]), 1)
 
+    def test_plots_are_thinned_evenly_and_values_are_exact(self):
+        replay, mailbox = Replay(self.bag), Mailbox()
+        with unittest.mock.patch("wavetank.web.replay.SHOWN_SAMPLES", 60):
+            replay.greet(mailbox)
+        arrays = unpack(mailbox.take()[0])[1]
+        times = arrays["times"]
+        self.assertTrue(40 < len(times) <= 60, len(times))
+        self.assertEqual((times[0], times[-1], arrays["values"][-1]), (0.0, 1.0, PRESSURE))
+        self.assertLess(numpy.diff(times).max(), 0.04)
+        for water, time, seen in (("free_surface", 0.6, 0.6), ("free_surface", 0.7, 0.6), ("surface", 0.6, 0.5)):
+            kind = "cloud" if water == "free_surface" else "surface"
+            self.assertEqual(unpack(replay.pictures(time, water)[kind])[0]["values"], {"probes": [10.0 * round(seen * 200)]})
+
 
 class MadeTank:
     """A tank as the server's source, which does nothing by itself."""

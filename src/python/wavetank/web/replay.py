@@ -1,6 +1,7 @@
 """A bag as the page's source: each client asks for the pictures of the times that it shows."""
 
 import bisect
+import math
 import os
 import sys
 
@@ -12,7 +13,7 @@ from wavetank.scenery import CLOUDS, MARKER, MARKERS, SURFACE, Pose
 from wavetank.web.drawing import Drawing, pose_numbers
 from wavetank.web.packets import cloud_packet, spray_packet, surface_packet
 from wavetank.web.requests import REPLAY
-from wavetank.web.series import Series
+from wavetank.web.series import thinned
 
 HIDDEN = ("/pressure", "/viscous", "/odom", "status", "joint_states")  # ends of names that have no plot
 SHOWN_SAMPLES = 4096  # of an instrument
@@ -44,7 +45,8 @@ class Replay:
         self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4, take_recorded=True), Drawing()
         if len(self._drawings):
             self._drawing.follow(self._drawings.read(0))
-        self._series = [self._read_series(name) for name in self._recording.names if is_plotted(name)]
+        tables = (self._recording.table(name) for name in self._recording.names if is_plotted(name))
+        self._tables = [(table, table.array(*table.columns)) for table in tables if len(table) and table.columns]
 
     def _split_surface(self):
         """Numbers of the messages that draw the surface, and those that draw the spray, with their times."""
@@ -53,13 +55,6 @@ class Replay:
         for n, stamp in enumerate(self._markers.stamps.tolist()):
             found.get(self._markers.group(n), []).append((stamp, n))
         return found["surface"], found["spray"]
-
-    def _read_series(self, name):
-        table = self._recording.table(name)
-        series = Series(len(table.columns), SHOWN_SAMPLES)
-        if table.columns:
-            series.add(table.times, table.array(*table.columns))
-        return table_of(table), series
 
     def known(self):
         return {"waters": self.waters, "bodies": []}
@@ -83,9 +78,11 @@ class Replay:
     def greet(self, mailbox):
         """What a new client gets."""
         mailbox.put("drawing", self._drawing.packet())
-        for table, series in self._series:
-            if len(series):
-                mailbox.add(table, series.times, series.values)
+        for table, values in self._tables:
+            times = table.times
+            while len(times) > SHOWN_SAMPLES:  # as fine at the beginning as at the end
+                times, values = thinned(times, values)
+            mailbox.add(table_of(table), times, values)
 
     def pictures(self, time, water):
         """Packets by kind of what the bag has last at a time (s), or first where that is later."""
@@ -107,15 +104,23 @@ class Replay:
         messages = self._clouds[water]
         cloud = messages.read(max(bisect.bisect_right(messages.stamps, stamp) - 1, 0))
         at = stamp_of_header(cloud)
-        return {"cloud": cloud_packet(water, at, cloud_of(cloud), {"poses": self._poses_at(at)})}
+        return {"cloud": cloud_packet(water, at, cloud_of(cloud), self._all_at(at))}
 
     def _surface_pictures(self, stamp):
         pictures, at = {}, stamp
         for kind, numbers, packet in (("surface", self._surface, surface_packet), ("spray", self._spray, spray_packet)):
             if numbers:
                 at, n = numbers[max(bisect.bisect_right(numbers, (stamp, len(self._markers))) - 1, 0)]
-                pictures[kind] = packet(self._markers.read(n), at, {"poses": self._poses_at(at)})
+                pictures[kind] = packet(self._markers.read(n), at, self._all_at(at))
         return pictures
+
+    def _all_at(self, stamp):
+        return {"poses": self._poses_at(stamp), "values": self._values_at(stamp)}
+
+    def _values_at(self, stamp):
+        """Of each instrument what it measured last at that time, or first: plots are thinned. None of what is no number."""
+        rows = {table.name: values[max(bisect.bisect_right(table.stamps, stamp) - 1, 0)] for table, values in self._tables}
+        return {name: [float(value) if math.isfinite(value) else None for value in row] for name, row in rows.items()}
 
     def _poses_at(self, stamp):
         poses = {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}

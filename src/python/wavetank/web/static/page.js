@@ -136,7 +136,7 @@ class Page {
   _arrived(packet, what) {
     this.received = (this.received || 0) + 1;
     this.what = what;
-    this._setTime(packet.time - this.start);
+    this._setTime(packet.time - this.start, packet.values);
     if (!this.broken) notice("");
     this._showFacts();
   }
@@ -204,11 +204,12 @@ class Page {
     find("facts").textContent = facts.join(" · ");
   }
 
-  _setTime(time) {
+  /** values: of a bag, by instrument, what it measured last. */
+  _setTime(time, values) {
     this.time = time;
     find("clock").textContent = `t = ${time.toFixed(3)} s`;
     if (!this.replay) return;
-    this.plots.setTime(time);
+    this.plots.setTime(time, values || {});
     if (this.player.playing) find("slider").value = time;  // with the pictures: each change of the page is drawn
   }
 

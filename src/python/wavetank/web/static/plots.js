@@ -85,19 +85,14 @@ class Plot {
     this.changed = true;
   }
 
-  /** The row of a time, or the last. */
+  /** The values of a bag's time, which come with its picture, since rows are thinned; of a tank the last. */
   row() {
-    if (this.time === null || !this.rows.length) return this.rows[this.rows.length - 1];
-    let low = 0, high = this.rows.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.rows[middle][0] <= this.time + 1e-9) low = middle; else high = middle - 1;
-    }
-    return this.rows[low];
+    return this.time === null ? this.rows[this.rows.length - 1] : this.exact;
   }
 
-  setTime(time) {
+  setTime(time, values) {
     this.time = time;
+    if (values[this.name]) this.exact = [time, ...this.columns.map((n) => values[this.name][n] ?? NaN)];
     this.moved = true;
   }
 
@@ -171,7 +166,7 @@ class Plots {
     plot.signature = packet.columns.join();
     // torques, and what is beyond the first few, are there to be asked for
     plot.element.hidden = unit === "N m" || [...this.all.values()].filter((each) => !each.element.hidden).length >= SHOWN_AT_FIRST;
-    plot.time = this.time === undefined ? null : this.time;
+    if (this.time !== undefined) plot.setTime(this.time, this.values);
     this.all.set(key, plot);
     const label = document.createElement("label"), box = document.createElement("input");
     box.type = "checkbox";
@@ -211,9 +206,10 @@ class Plots {
     this.choice.hidden = true;
   }
 
-  setTime(time) {
+  setTime(time, values) {
     this.time = time;
-    for (const plot of this.all.values()) plot.setTime(time);
+    this.values = values;
+    for (const plot of this.all.values()) plot.setTime(time, values);
   }
 
   redraw() { for (const plot of this.all.values()) plot.redraw(); }
