@@ -173,7 +173,12 @@ class Requests(unittest.TestCase):
 
     def test_only_pages_of_this_server_may_ask(self):
         names = {"localhost", "127.0.0.1", "::1"}
-        for origin, host in (("http://localhost:8780", "localhost:8780"), ("http://127.0.0.1:1", "127.0.0.1:1"), ("http://[::1]:80", "[::1]:80"), ("http://LOCALHOST", "localhost")):
+        for origin, host in (
+            ("http://localhost:8780", "localhost:8780"),
+            ("http://127.0.0.1:1", "127.0.0.1:1"),
+            ("http://[::1]:80", "[::1]:80"),
+            ("http://LOCALHOST", "localhost"),
+        ):
             self.assertTrue(origin_is_ours(origin, host, names), origin)
         for origin, host in (
             (None, "localhost:8780"),
@@ -206,7 +211,14 @@ class Drawings(unittest.TestCase):
 
     def test_only_files_of_packages(self):
         self.assertEqual(triangles_of("package://wavetank/meshes/sphere.stl").shape[1], 3)
-        for uri in ("file:///etc/passwd", "/etc/passwd", "package://wavetank/../../etc/a.stl", "package://no_such_package/a.stl", "package://wavetank/package.xml", "package://wavetank/\0.stl"):
+        for uri in (
+            "file:///etc/passwd",
+            "/etc/passwd",
+            "package://wavetank/../../etc/a.stl",
+            "package://no_such_package/a.stl",
+            "package://wavetank/package.xml",
+            "package://wavetank/\0.stl",
+        ):
             self.assertIsNone(triangles_of(uri), uri)
 
     def test_no_way_leads_out_of_a_package(self):
@@ -276,7 +288,9 @@ def write_bag(path, clouds=True, stamped_lines=False, broken_at=None, lost_at=No
     """Water of 1 × 0.6 × 0.52 m that moves ahead in a tank of 2 m, a body that rises out of it, a probe."""
     with rosbag.Bag(path, "w", **how) as bag:
         start = rospy.Time(0, 1)
-        text = 'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
+        text = (
+            'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
+        )
         bag.write("/wavetank/case", String(text), start)
         shapes = [
             box_marker("tank", "tank", (0, 0, 0), (2, 0.6, 0.6), (0.5, 0.7, 0.8, 0.12)),
@@ -391,7 +405,16 @@ class MadeTank:
         return KNOWN
 
     def hello(self):
-        hello = {"kind": "hello", "run": self.run, "mode": "live", "source": "/wavetank", "tank": "/wavetank", "title": "run %d" % self.run, "dimensions": 3, "spacing": 0.1}
+        hello = {
+            "kind": "hello",
+            "run": self.run,
+            "mode": "live",
+            "source": "/wavetank",
+            "tank": "/wavetank",
+            "title": "run %d" % self.run,
+            "dimensions": 3,
+            "spacing": 0.1,
+        }
         return dict(hello, waters=KNOWN["waters"], bodies=[{"name": "boat", "mass": 1.0}], times=[])
 
     def greet(self, mailbox):
@@ -425,7 +448,9 @@ class LiveTank(unittest.TestCase):
         patches = (
             unittest.mock.patch("rospy.Subscriber", subscribe),
             unittest.mock.patch("rospy.Publisher"),
-            unittest.mock.patch("rospy.get_published_topics", lambda: [("/wavetank/probes", "wavetank/ProbeArray"), ("/wavetank/bodies/boat/odom", "nav_msgs/Odometry")]),
+            unittest.mock.patch(
+                "rospy.get_published_topics", lambda: [("/wavetank/probes", "wavetank/ProbeArray"), ("/wavetank/bodies/boat/odom", "nav_msgs/Odometry")]
+            ),
             unittest.mock.patch("rospy.logwarn", lambda text, *values: self.warned.append(text % values)),
         )
         for patch in patches:
@@ -728,7 +753,9 @@ class Server(WithBag):
             reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
             head = "GET /socket HTTP/1.1\r\nHost: %s\r\nOrigin: %s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
             text = json.dumps(dict(push, force=[2, 0, 0])).encode()
-            writer.write((head % (server.url[len("http://") : -1], server.url[:-1])).encode() + bytes([0x81, 0x80 | len(text)]) + bytes(4) + text)  # masked by zeros
+            writer.write(
+                (head % (server.url[len("http://") : -1], server.url[:-1])).encode() + bytes([0x81, 0x80 | len(text)]) + bytes(4) + text
+            )  # masked by zeros
             self.assertIn(b"1 pages are open", await asyncio.wait_for(reader.readuntil(b"may be"), 10))
             await asyncio.sleep(0.1)
             await connection.write_message(json.dumps(push))

@@ -17,8 +17,12 @@ def read_arguments(arguments):
     parser.add_argument("--tank", default="/wavetank", help="name of the tank's node (default /wavetank)")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
     parser.add_argument("--port", type=int, default=PORT, help="(default %d; 0: any that is free)" % PORT)
-    parser.add_argument("--address", default="127.0.0.1", help="that it listens to (default 127.0.0.1, this machine alone; 0.0.0.0: all; whoever reaches it may pause and push)")
-    parser.add_argument("--name", action="append", default=[], help="by which browsers elsewhere call this machine, beside its own name and addresses; may be repeated")
+    parser.add_argument(
+        "--address", default="127.0.0.1", help="that it listens to (default 127.0.0.1, this machine alone; 0.0.0.0: all; whoever reaches it may pause and push)"
+    )
+    parser.add_argument(
+        "--name", action="append", default=[], help="by which browsers elsewhere call this machine, beside its own name and addresses; may be repeated"
+    )
     parser.add_argument("--clients", type=int, default=CLIENTS, help="how many pages may be open at once (default %d)" % CLIENTS)
     options = parser.parse_args(arguments)
     if options.clients < 1:

@@ -227,7 +227,8 @@ class Live:
         try:
             topics = rospy.get_published_topics()
             self._master = True
-        except (OSError, rospy.ROSException, xmlrpc.client.Error, http.client.HTTPException, xml.parsers.expat.ExpatError):  # no master, or something else there
+        except (OSError, rospy.ROSException, xmlrpc.client.Error, http.client.HTTPException, xml.parsers.expat.ExpatError):
+            # there is no master, or something else in its place
             topics, self._master = [], False
         within = self.tank + "/"
         surface = any(topic == within + SURFACE for topic, _ in topics)

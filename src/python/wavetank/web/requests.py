@@ -16,7 +16,8 @@ def flag(name, value, known):
 
 
 def number(name, value, least, greatest):
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= greatest:  # nan is not, nor is what has too many digits for a float
+    # the range is looked at first: it holds neither nan nor what has too many digits for a float
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= greatest:
         raise Refused("'%s' is a number from %g to %g" % (name, least, greatest))
     return float(value)
 

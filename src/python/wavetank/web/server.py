@@ -241,7 +241,9 @@ class Files(tornado.web.StaticFileHandler):
         if host_name(host) not in names_for(self.request, self.application.settings["names"]):
             self.set_status(403)
             self.set_header("Content-Type", "text/plain; charset=utf-8")
-            self.finish("This server does not go by the name '%s': open the page by its address, or start the server with --name of that name." % host_name(host))
+            self.finish(
+                "This server does not go by the name '%s': open the page by its address, or start the server with --name of that name." % host_name(host)
+            )
 
     def set_extra_headers(self, path):
         csp = "default-src 'self'; connect-src 'self' ws://%s; img-src 'self' data:; style-src 'self' 'unsafe-inline'"
