@@ -141,10 +141,11 @@ bool SampleMessages::are_drawn(const MooringSample& sample) const {
   return std::llround(sample.time * mooring_rate_) % every == 0;
 }
 
-visualization_msgs::MarkerArray SampleMessages::mooring_markers(const MooringSample& sample) const {
+visualization_msgs::MarkerArray SampleMessages::mooring_markers(const MooringSample& sample, const StampClock& clock) const {
   visualization_msgs::MarkerArray drawing;
   for (const MooringState& mooring : sample.moorings) {
     visualization_msgs::Marker line;
+    line.header.stamp = clock.at(sample.time);
     line.header.frame_id = publishing_.world_frame;
     line.ns = "moorings";
     line.id = static_cast<int>(drawing.markers.size());

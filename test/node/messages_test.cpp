@@ -122,10 +122,11 @@ TEST(SampleMessages, MooringsTellTheirTensionAndAreDrawnTwentyTimesASecond) {
   for (int k = 0; k < 100; ++k)
     samples.moorings.push_back({0.01 * k, {{1.0 * k, 2, 3, {Vector3d(1, 2, 3), Vector3d(2, 2, 4)}}, {5, 6, 0, {Vector3d(1, 2, 3)}}}});
   std::map<std::string, int> counts;
-  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time&, const auto& message) {
+  messages.emit(samples, StampClock(), [&](const std::string& topic, const ros::Time& stamp, const auto& message) {
     ++counts[topic];
     if constexpr (std::is_same_v<std::decay_t<decltype(message)>, visualization_msgs::MarkerArray>) {
       ASSERT_EQ(message.markers.size(), 2U);
+      for (const auto& line : message.markers) EXPECT_EQ(line.header.stamp, stamp);
       EXPECT_EQ(message.markers[0].ns, "moorings");
       EXPECT_EQ(message.markers[0].header.frame_id, "basin");
       ASSERT_EQ(message.markers[0].points.size(), 2U);

@@ -130,10 +130,20 @@ class Web(unittest.TestCase):
         self.phase(SolverStatus.PAUSED)
         browser.wait("wavetank.status.phase === 2 && document.getElementById('state').textContent === 'paused'")
         last = self.ear.last(PROBES)
-        plot = "[...wavetank.plots.all.values()].find((plot) => plot.name === 'probes').rows.slice(-1)[0]"
-        browser.wait("%s[0] >= %.9f" % (plot, last.header.stamp.to_sec() - 1e-9))
+        status = self.ear.last(STATUS)
+        start = round(status.header.stamp.to_sec() - status.time)
+        self.assertGreaterEqual(start, 1, "the reset before has set stamps on")
+        rows = "[...wavetank.plots.all.values()].find((plot) => plot.name === 'probes').rows"
+        plot = rows + ".slice(-1)[0]"
+        browser.wait("%s[0] >= %.9f" % (plot, last.header.stamp.to_sec() - start - 1e-9))
+        self.assertLess(browser.get(rows + "[0][0]"), 0.5, "of this run alone, from its beginning")
+        browser.wait("document.getElementById('clock').textContent === 't = %.3f s'" % status.time)
         self.assertEqual(self.ear.last(PROBES).header.stamp, last.header.stamp, "paused is paused")
-        self.assertEqual(browser.get(plot), [last.header.stamp.to_nsec() / 1e9, last.pressures[0]])
+        time, pressure = browser.get(plot)
+        self.assertAlmostEqual(time, last.header.stamp.to_sec() - start, delta=1e-9)
+        self.assertEqual(pressure, last.pressures[0])
+        browser.press("reset")
+        browser.wait("document.getElementById('clock').textContent === 't = 0.000 s' && %s.every((row) => row[0] === 0)" % rows)
         self.assertEqual(browser.errors(), [])
         browser.press("pause")
         self.phase(SolverStatus.RUNNING)

@@ -2,17 +2,24 @@
 """The page in the browser: what is sent, what may be asked for, and a bag as a user sees it."""
 
 import asyncio
+import http.client
+import io
 import json
 import math
 import os
+import shutil
 import socket
 import struct
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
+import unittest.mock
 import urllib.error
 import urllib.request
+import xml.parsers.expat
 
 import numpy
 import rosbag
@@ -23,12 +30,16 @@ from page_browser import MISSING, NO_SERVER, WEB, Browser, end, start_server
 from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
-from wavetank.msg import ProbeArray
+from wavetank.msg import ProbeArray, SolverStatus
+from wavetank import Failure
+from wavetank.bag_file import BagFile
+from wavetank.meshes import package_path, read_obj, read_stl, triangles_of
 from wavetank.recording import Recording
 from wavetank.web.drawing import Drawing
+from wavetank.web.live import Live
 from wavetank.web.mailbox import Mailbox
-from wavetank.web.meshes import read_obj, read_stl, triangles_of
 from wavetank.web.packets import cloud_packet, pack, surface_packet, unpack
+from wavetank.web.replay import Replay, read_case
 from wavetank.web.requests import LIVE, REPLAY, Refused, origin_is_ours, read_request
 from wavetank.web.series import Series
 
@@ -147,6 +158,8 @@ class Requests(unittest.TestCase):
             push % "[1, 2, NaN]": "no number",
             push % "[1, 2, 1e999]": "number from",
             push % "[1, 2, true]": "number from",
+            push % ("[1, 2, 1%s]" % ("0" * 400)): "number from",
+            push % ("[1, 2, -1%s]" % ("0" * 4000)): "number from",
             push % '[1, 2, "3"]': "number from",
             push.replace("boat", "tank") % "[1, 2, 3]": "boat",
             '{"do": "step", "x": "%s"}' % ("a" * 5000): "4096",
@@ -160,7 +173,12 @@ class Requests(unittest.TestCase):
 
     def test_only_pages_of_this_server_may_ask(self):
         names = {"localhost", "127.0.0.1", "::1"}
-        for origin, host in (("http://localhost:8780", "localhost:8780"), ("http://127.0.0.1:1", "127.0.0.1:1"), ("http://[::1]:80", "[::1]:80"), ("http://LOCALHOST", "localhost")):
+        for origin, host in (
+            ("http://localhost:8780", "localhost:8780"),
+            ("http://127.0.0.1:1", "127.0.0.1:1"),
+            ("http://[::1]:80", "[::1]:80"),
+            ("http://LOCALHOST", "localhost"),
+        ):
             self.assertTrue(origin_is_ours(origin, host, names), origin)
         for origin, host in (
             (None, "localhost:8780"),
@@ -187,14 +205,37 @@ class Drawings(unittest.TestCase):
         self.assertEqual(read_stl(text.encode()).tolist(), TRIANGLE)
         square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 -1//4\n"
         self.assertEqual(read_obj(square).tolist(), [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]])
-        for reader, bad in ((read_stl, b""), (read_stl, data[:-1]), (read_obj, b"v 0 0\nf 1 2 3\n")):
+        for reader, bad in ((read_stl, b""), (read_stl, data[:-1]), (read_obj, b"v 0 0\nf 1 2 3\n"), (read_obj, square.replace(b"f 1/1", b"f 0/1"))):
             with self.assertRaises((ValueError, IndexError)):
                 reader(bad)
 
     def test_only_files_of_packages(self):
         self.assertEqual(triangles_of("package://wavetank/meshes/sphere.stl").shape[1], 3)
-        for uri in ("file:///etc/passwd", "/etc/passwd", "package://wavetank/../../etc/a.stl", "package://no_such_package/a.stl", "package://wavetank/package.xml"):
+        for uri in (
+            "file:///etc/passwd",
+            "/etc/passwd",
+            "package://wavetank/../../etc/a.stl",
+            "package://no_such_package/a.stl",
+            "package://wavetank/package.xml",
+            "package://wavetank/\0.stl",
+        ):
             self.assertIsNone(triangles_of(uri), uri)
+
+    def test_no_way_leads_out_of_a_package(self):
+        mesh = os.path.realpath(package_path("package://wavetank/meshes/sphere.stl"))
+        with tempfile.TemporaryDirectory(prefix="wavetank_test_") as folder:
+            package = os.path.join(folder, "made_package")
+            os.mkdir(package)
+            with open(os.path.join(package, "package.xml"), "w") as file:
+                file.write("<package><name>made_package</name></package>")
+            shutil.copy(mesh, os.path.join(folder, "outside.stl"))
+            shutil.copy(mesh, os.path.join(package, "inside.stl"))
+            os.symlink(os.path.join(folder, "outside.stl"), os.path.join(package, "link.stl"))
+            os.mkfifo(os.path.join(package, "pipe.stl"))  # nobody writes into it
+            with unittest.mock.patch.dict(os.environ, {"ROS_PACKAGE_PATH": folder}):
+                self.assertIsNotNone(triangles_of("package://made_package/inside.stl"))
+                for name in (os.path.join(folder, "outside.stl"), mesh, "../outside.stl", "link.stl", "pipe.stl", "none.stl"):
+                    self.assertIsNone(triangles_of("package://made_package/" + name), name)
 
     def test_markers_come_and_go(self):
         drawing = Drawing()
@@ -243,21 +284,25 @@ def surface_markers(stamp, ahead):
     return surface, spray
 
 
-def write_bag(path, clouds=True):
+def write_bag(path, clouds=True, stamped_lines=False, broken_at=None, lost_at=None, **how):
     """Water of 1 × 0.6 × 0.52 m that moves ahead in a tank of 2 m, a body that rises out of it, a probe."""
-    with rosbag.Bag(path, "w") as bag:
+    with rosbag.Bag(path, "w", **how) as bag:
         start = rospy.Time(0, 1)
-        text = 'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
+        text = (
+            'title: "A <b>made</b> bag"\ndimensions: 3\nfluid:\n  spacing: 0.04\nworld_frame: tank\nbodies:\n  - name: boat\n    motion: free\n    mass: 3.0\n'
+        )
         bag.write("/wavetank/case", String(text), start)
         shapes = [
             box_marker("tank", "tank", (0, 0, 0), (2, 0.6, 0.6), (0.5, 0.7, 0.8, 0.12)),
             box_marker("bodies", "tank/bodies/boat", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1), (0.95, 0.6, 0.15, 1.0)),
         ]
         bag.write("/wavetank/markers", MarkerArray(shapes), start)
-        line = Marker(ns="moorings", type=Marker.LINE_STRIP, points=[Point(0, 0, 0), Point(1, 0, 0.5)])
-        line.header.stamp = rospy.Time.from_sec(0.5)
-        line.pose.orientation.w = 1.0
-        bag.write("/wavetank/markers", MarkerArray([line]), line.header.stamp)
+        for n in (0, 1):  # as earlier versions wrote them, without a stamp
+            line = Marker(ns="moorings", type=Marker.LINE_STRIP, points=[Point(0, 0, 0), Point(1, 0, n)])
+            line.pose.orientation.w = 1.0
+            if stamped_lines:
+                line.header.stamp = rospy.Time.from_sec(0.5 + 0.25 * n)
+            bag.write("/wavetank/markers", MarkerArray([line]), rospy.Time.from_sec(0.5 + 0.25 * n))
         lattice = numpy.stack(numpy.meshgrid(numpy.arange(25), numpy.arange(15), numpy.arange(13), indexing="ij"), axis=-1).reshape(-1, 3) * 0.04 + 0.02
         for n in range(201):
             stamp = rospy.Time.from_sec(n / 200)
@@ -266,7 +311,7 @@ def write_bag(path, clouds=True):
             bag.write("/wavetank/probes", probes, stamp if n else start)
             odometry = Odometry()
             odometry.header.stamp = stamp
-            odometry.pose.pose.position.x, odometry.pose.pose.position.z, odometry.pose.pose.orientation.w = 1.5, n / 200, 1.0
+            odometry.pose.pose.position.x, odometry.pose.pose.position.z, odometry.pose.pose.orientation.w = 1.5, n / 200, math.nan if n == lost_at else 1.0
             bag.write("/wavetank/bodies/boat/odom", odometry, stamp if n else start)
             if clouds and n % 100 == 0:
                 for marker in surface_markers(stamp, n / 200):
@@ -278,6 +323,8 @@ def write_bag(path, clouds=True):
                 points[::40, 3] = 2.0  # some are fast, so that the others have the colours of slow water
                 fields = [PointField(name, 4 * place, PointField.FLOAT32, 1) for place, name in enumerate(("x", "y", "z", "vx", "vy", "vz"))]
                 cloud = PointCloud2(height=1, width=len(points), fields=fields, point_step=24, row_step=24 * len(points), data=points.tobytes())
+                if n == broken_at:
+                    fields[0].datatype = 99
                 cloud.header.stamp = stamp
                 bag.write("/wavetank/free_surface", cloud, stamp if n else start)
 
@@ -297,12 +344,238 @@ class WithBag(unittest.TestCase):
         return done.stderr
 
 
+class Cases(unittest.TestCase):
+    def test_whatever_a_bag_has_in_its_place(self):
+        nothing = {"title": "", "dimensions": 3, "spacing": None, "world_frame": "tank", "free": {}}
+        for text in (None, "", "[", "- a", "3", "tank: water\nbodies: 3", "tank: [1]\nbodies: {a: b}", "fluid: [0.1]", "fluid: {spacing: .nan}", "fluid: {spacing: true}",
+                     "fluid: {spacing: 1%s}" % ("0" * 400), "bodies: [{motion: free}, 3, {name: [a], motion: free}]", "a: 2001-99-99", "? [1]\n: 2", "[" * 5000):  # fmt: skip
+            self.assertEqual(read_case(text), nothing, str(text)[:80])
+        found = read_case("tank: {motion: free, mass: .inf}\nbodies: [{name: a, motion: free, mass: 2}, {name: b}]\nworld_frame: pool\nfluid: {spacing: 0.1}")
+        self.assertEqual(found, dict(nothing, spacing=0.1, world_frame="pool", free={"tank": None, "a": 2.0}))
+
+    def test_a_push_is_along_the_axes_of_the_tank(self):
+        for text, frame in (("bodies: [{name: a, motion: free}]", "tank"), ("bodies: [{name: a, motion: free}]\nworld_frame: pool", "pool")):
+            with unittest.mock.patch("rospy.Subscriber"), unittest.mock.patch("rospy.Publisher") as publisher:
+                live = Live("wavetank", lambda kind, packet: None)
+                live._case_came(Came(String(text)))
+                live.call({"do": "push", "body": "a", "force": [1.0, 0.0, 0.0], "torque": [0.0, 0.0, 0.0]})
+            self.assertEqual(publisher.return_value.publish.call_args[0][0].header.frame_id, frame)
+
+
 class Messages(WithBag):
     def test_messages_one_by_one(self):
         recording = Recording(self.bag)
-        drawings = recording.stream("markers", "visualization_msgs/MarkerArray", header_at=4)
-        self.assertEqual(drawings.stamps.tolist(), [0, 500000000])
+        drawings = recording.stream("markers", "visualization_msgs/MarkerArray", header_at=4, take_recorded=True)
+        self.assertEqual(drawings.stamps.tolist(), [1, 500000000, 750000000])
         self.assertEqual([marker["ns"] for marker in drawings.read(1)["markers"]], ["moorings"])
+
+    def test_lines_are_those_of_the_time_also_back(self):
+        stamped = self.bag + ".stamped.bag"
+        write_bag(stamped, stamped_lines=True)
+        for bag in (self.bag, stamped):
+            replay = Replay(bag)
+            for time, heights in ((0.9, [1.0]), (0.6, [0.0]), (0.2, []), (0.75, [1.0]), (0.0, [])):
+                header, arrays = unpack(replay.pictures(time, "free_surface")["lines"])
+                self.assertEqual([arrays[part["points"]][5] for part in header["parts"]], heights, "%s %g" % (bag, time))
+            self.assertEqual(len(unpack(replay.pictures(0.9, "free_surface")["lines"])[0]["parts"]), 1)
+
+    def test_plots_are_thinned_evenly_and_values_are_exact(self):
+        replay, mailbox = Replay(self.bag), Mailbox()
+        with unittest.mock.patch("wavetank.web.replay.SHOWN_SAMPLES", 60):
+            replay.greet(mailbox)
+        arrays = unpack(mailbox.take()[0])[1]
+        times = arrays["times"]
+        self.assertTrue(40 < len(times) <= 60, len(times))
+        self.assertEqual((times[0], times[-1], arrays["values"][-1]), (0.0, 1.0, PRESSURE))
+        self.assertLess(numpy.diff(times).max(), 0.04)
+        for water, time, seen in (("free_surface", 0.6, 0.6), ("free_surface", 0.7, 0.6), ("surface", 0.6, 0.5)):
+            kind = "cloud" if water == "free_surface" else "surface"
+            self.assertEqual(unpack(replay.pictures(time, water)[kind])[0]["values"], {"probes": [10.0 * round(seen * 200)]})
+
+
+class MadeTank:
+    """A tank as the server's source, which does nothing by itself."""
+
+    requests, mode = LIVE, "of a test"
+
+    def __init__(self):
+        self.run, self.calls = 0, []
+
+    def known(self):
+        return KNOWN
+
+    def hello(self):
+        hello = {
+            "kind": "hello",
+            "run": self.run,
+            "mode": "live",
+            "source": "/wavetank",
+            "tank": "/wavetank",
+            "title": "run %d" % self.run,
+            "dimensions": 3,
+            "spacing": 0.1,
+        }
+        return dict(hello, waters=KNOWN["waters"], bodies=[{"name": "boat", "mass": 1.0}], times=[])
+
+    def greet(self, mailbox):
+        pass
+
+    def call(self, request):
+        self.calls.append(request)
+
+
+class Came:
+    """A message as rospy.AnyMsg has it."""
+
+    def __init__(self, message, cut=None):
+        self._connection_header = {"type": message._type, "md5sum": message._md5sum, "message_definition": message._full_text}
+        buffer = io.BytesIO()
+        message.serialize(buffer)
+        self._buff = buffer.getvalue()[:cut]
+
+
+class LiveTank(unittest.TestCase):
+    """A tank that runs as the page's source, its topics played by hand."""
+
+    def setUp(self):
+        self.sent, self.heard = [], {}
+        self.warned = []
+
+        def subscribe(topic, kind, hear, callback_args=None, **more):
+            self.heard[topic] = hear if callback_args is None else lambda message: hear(message, callback_args)
+            return unittest.mock.Mock()
+
+        patches = (
+            unittest.mock.patch("rospy.Subscriber", subscribe),
+            unittest.mock.patch("rospy.Publisher"),
+            unittest.mock.patch(
+                "rospy.get_published_topics", lambda: [("/wavetank/probes", "wavetank/ProbeArray"), ("/wavetank/bodies/boat/odom", "nav_msgs/Odometry")]
+            ),
+            unittest.mock.patch("rospy.logwarn", lambda text, *values: self.warned.append(text % values)),
+        )
+        for patch in patches:
+            patch.start()
+            self.addCleanup(patch.stop)
+        self.live = Live("wavetank", lambda kind, packet: self.sent.append((kind, packet)))
+        self.live.look_around()
+
+    def hear(self, name, message, cut=None):
+        self.heard["/wavetank/" + name](Came(message, cut))
+
+    def probe(self, stamp, names=("P1",), pressures=(0.0,), cut=None):
+        message = ProbeArray(names=list(names), positions=[Point() for _ in names], pressures=list(pressures))
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        self.hear("probes", message, cut)
+
+    def samples(self):
+        return [(times.tolist(), values.ravel().tolist(), clear) for _, times, values, clear in self.live.samples()]
+
+    def pose(self, x, cut=None):
+        odometry = Odometry()
+        odometry.pose.pose.position.x, odometry.pose.pose.orientation.w = x, 1.0
+        self.hear("bodies/boat/odom", odometry, cut)
+
+    def test_what_cannot_be_read_is_left_out_and_told_once(self):
+        self.probe(1.0, pressures=[5.0])
+        self.assertEqual(self.samples(), [([1.0], [5.0], True)])
+        for n in range(2):
+            self.probe(1.1, pressures=[])  # a name without a value
+            self.assertEqual(self.samples(), [])
+            self.probe(1.1, cut=30)
+            self.assertEqual(self.samples(), [])
+            for x, cut in ((1.0, 40), (math.nan, None)):
+                self.pose(x, cut)
+                self.assertEqual(self.live.poses()["poses"], {})
+            self.hear("case", String("title: a"), cut=2)
+        self.probe(1.2, names=[], pressures=[])  # nothing is measured
+        self.probe(1.3, pressures=[6.0])
+        self.assertEqual(self.samples(), [([1.3], [6.0], False)])
+        self.pose(2.0)
+        self.assertEqual(self.live.poses()["poses"], {"boat": [2.0, 0, 0, 0, 0, 0, 1]})
+        self.assertEqual([text.split()[0] for text in self.warned], ["/wavetank/probes", "/wavetank/bodies/boat/odom", "/wavetank/case"])
+
+    @unittest.skipIf(NO_SERVER, NO_SERVER)
+    def test_another_tank_begins_with_nothing_of_the_one_before(self):
+        from wavetank.web.server import Hub
+
+        hub, mailbox = Hub(1), Mailbox()
+        hub.run_changed = self.live.forget
+        hub.clients.add(unittest.mock.Mock(mailbox=mailbox, wants=lambda kind: kind != "free_surface"))
+
+        def play():
+            for sent in self.sent:
+                hub.publish(*sent)
+            self.sent.clear()
+            for sample in self.live.samples():
+                hub.add(*sample)
+
+        erase = Marker(action=Marker.DELETEALL)
+        self.hear("case", String("title: first"))
+        self.hear("markers", MarkerArray([erase, box_marker("tank", "tank", (0, 0, 0), (1, 1, 1), (1, 1, 1, 1))]))
+        self.hear("markers", MarkerArray([box_marker("moorings", "tank", (0, 0, 0), (1, 1, 1), (1, 1, 1, 1))]))
+        self.probe(1.0)
+        self.pose(1.0)
+        play()
+        hub.publish("poses", self.live.poses())
+        hub.publish("particles", b"first")
+        hub.publish("free_surface", b"nobody wants it")
+        self.hear("case", String("title: first"))  # as it comes again when the connection breaks
+        play()
+        self.assertEqual(set(hub.newest), {"hello", "drawing", "lines", "silence", "poses", "particles"})
+
+        self.hear("case", String("title: second"))
+        self.hear("markers", MarkerArray([erase, box_marker("tank", "tank", (0, 0, 0), (2, 1, 1), (1, 1, 1, 1))]))
+        play()
+        self.assertEqual(set(hub.newest), {"hello", "drawing", "silence"})
+        self.assertEqual(json.loads(hub.newest["hello"])["title"], "second")
+        late = Mailbox()
+        self.live.greet(late)
+        self.assertEqual(late.take(), (None, False))
+        self.probe(0.5)
+        play()
+        taken = []
+        while True:
+            packet, _ = mailbox.take()
+            if packet is None:
+                break
+            taken.append(unpack(packet)[0] if isinstance(packet, bytes) else json.loads(packet))
+        self.assertEqual([packet.get("title", packet["kind"]) for packet in taken], ["first", "first", "second", "series", "silence", "drawing"])
+        self.assertEqual((taken[2]["run"] - taken[1]["run"], taken[3]["clear"]), (1, True))
+
+    def status(self, stamp, time):
+        message = SolverStatus(time=time, phase=SolverStatus.RUNNING)
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        self.hear("status", message)
+
+    def test_after_a_reset_samples_begin_at_time_0(self):
+        self.status(0.5, 0.5)
+        self.probe(0.0, pressures=[1.0])
+        self.probe(2.25, pressures=[2.0])
+        self.assertEqual(self.samples(), [([0.0, 2.25], [1.0, 2.0], True)])
+        self.status(2.25, 2.25)
+        self.probe(3.0, pressures=[3.0])  # whose status is still on its way
+        self.assertEqual(self.samples(), [([3.0], [3.0], False)])
+        self.probe(3.5, pressures=[4.0])
+        self.status(3.5, 0.5)
+        self.assertEqual(self.samples(), [([0.0, 0.5], [3.0, 4.0], True)])
+        self.probe(3.75, pressures=[5.0])
+        self.assertEqual(self.samples(), [([0.75], [5.0], False)])
+        mailbox = Mailbox()
+        self.live.greet(mailbox)
+        self.assertEqual(unpack(mailbox.take()[0])[1]["times"].tolist(), [0.0, 0.5, 0.75])
+        self.status(4.0, 0.0)  # and again, with nothing sampled yet
+        self.assertEqual(self.samples(), [([], [], True)])
+        self.status(0.25, 0.25)  # the node was started again
+        self.probe(0.25, pressures=[6.0])
+        self.samples()
+        self.probe(0.5, pressures=[7.0])
+        self.assertEqual(self.samples(), [([0.5], [7.0], False)])
+
+    def test_a_master_that_is_none(self):
+        for error in (http.client.BadStatusLine("x"), xml.parsers.expat.ExpatError("x"), ConnectionRefusedError()):
+            with unittest.mock.patch("rospy.get_published_topics", unittest.mock.Mock(side_effect=error)):
+                self.live.look_around()
+            self.assertFalse(self.sent[-1][1]["master"])
 
 
 @unittest.skipIf(NO_SERVER, NO_SERVER)
@@ -314,11 +587,12 @@ class Server(WithBag):
         cls.addClassCleanup(end, cls.process)
         cls.host = cls.url[len("http://") : -1]
 
-    def connect(self, origin=None):
+    def connect(self, origin=None, url=None):
         from tornado.httpclient import HTTPRequest
         from tornado.websocket import websocket_connect
 
-        return websocket_connect(HTTPRequest("ws://%s/socket" % self.host, headers={"Origin": origin or self.url[:-1]}))
+        url = url or self.url
+        return websocket_connect(HTTPRequest(url.replace("http", "ws") + "socket", headers={"Origin": origin or url[:-1]}))
 
     @staticmethod
     async def next_of(connection, kind):
@@ -344,8 +618,8 @@ class Server(WithBag):
                 cloud, arrays = await self.next_of(connection, "cloud")
                 self.assertEqual((cloud["time"], len(arrays["points"])), (expected, 4 * 4875))
                 numpy.testing.assert_allclose(cloud["poses"]["boat"], [1.5, 0, expected, 0, 0, 0, 1])
-            lines, _ = await self.next_of(connection, "lines")
-            self.assertEqual(lines["parts"][0]["group"], "moorings")
+                lines, _ = await self.next_of(connection, "lines")
+                self.assertEqual([part["group"] for part in lines["parts"]], ["moorings"] if time >= 0.5 else [])
             for time, expected, corners, drops in ((0.4, 0.0, 0, 0), (0.6, 0.5, 36, 2)):
                 await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "surface"}))
                 surface, arrays = await self.next_of(connection, "surface")
@@ -355,6 +629,39 @@ class Server(WithBag):
             connection.close()
 
         asyncio.run(talk())
+
+    def test_what_cannot_be_read_gets_an_answer_and_the_next_is_heard(self):
+        bag = self.bag + ".damaged.bag"
+        write_bag(bag, compression="bz2", chunk_threshold=100000, broken_at=40)
+        process, url = start_server(bag)
+        self.addCleanup(end, process)
+        chunks = BagFile(bag)._all_chunks()
+        place = Recording(bag).stream("free_surface", "sensor_msgs/PointCloud2")._found[3][1][0]
+        with open(bag, "r+b") as file:  # of the cloud at 0.6 s
+            file.seek(chunks[place][1])
+            file.write(bytes(1000))
+
+        async def talk():
+            connection = await self.connect(url=url)
+            for time, ok, word in ((0.4, True, ""), (0.6, False, "is not whole"), (0.2, False, "failed in the server"), (0.0, True, "")):
+                await connection.write_message(json.dumps({"do": "frame", "time": time, "water": "free_surface"}))
+                answer, _ = await self.next_of(connection, "answer")
+                self.assertEqual(answer["ok"], ok, "%g: %s" % (time, answer))
+                self.assertIn(word, answer["text"])
+            connection.close()
+
+        asyncio.run(talk())
+
+    def test_a_pose_that_is_no_number_is_left_out(self):
+        from wavetank.web.server import text_of
+
+        bag = self.bag + ".lost.bag"
+        write_bag(bag, lost_at=200)
+        replay = Replay(bag)
+        for time, bodies in ((0.2, ["boat"]), (1.0, [])):
+            self.assertEqual(list(unpack(replay.pictures(time, "free_surface")["cloud"])[0]["poses"]), bodies)
+        with self.assertRaises(ValueError):
+            text_of({"kind": "poses", "poses": {"boat": [math.nan] * 7}})
 
     def test_what_is_not_allowed_gets_an_answer_and_the_next_is_heard(self):
         async def talk():
@@ -400,6 +707,87 @@ class Server(WithBag):
 
         asyncio.run(talk())
 
+    def test_what_is_shown_follows_the_newest_wish_and_holds_nothing_up(self):
+        from wavetank.web.server import Server
+
+        class Slow(MadeTank):
+            mode, shown, may_go_on = "live", [], threading.Event()
+            samples = staticmethod(lambda: [])
+            poses = look_around = forget = staticmethod(lambda: None)
+
+            def show(self, wanted):
+                self.shown.append(wanted)
+                self.may_go_on.wait(10)
+
+        async def talk():
+            server, source, stopped = Server("127.0.0.1", 0, 1), Slow(), asyncio.Event()
+            work = asyncio.ensure_future(server.serve(source, stopped))
+            connection = await self.connect(url=server.url)
+            for water in ("particles", "surface", "particles", "surface"):
+                await connection.write_message(json.dumps({"do": "show", "water": water}))
+                self.assertTrue((await self.next_of(connection, "answer"))[0]["ok"])
+            self.assertEqual(source.shown, [{"particles"}], "the first is still waiting")
+            source.may_go_on.set()
+            await asyncio.sleep(0.1)
+            self.assertEqual(source.shown, [{"particles"}, {"surface"}])
+            connection.close()
+            stopped.set()
+            await work
+
+        asyncio.run(talk())
+
+    def test_ends_while_a_bag_is_being_read(self):
+        code = "import os, signal, sys, time; import wavetank.web.replay as replay\nclass Slow:\n  def __init__(self, *more):\n    os.kill(os.getpid(), signal.SIGTERM); time.sleep(30)\nreplay.Replay = Slow\nfrom wavetank.web import command\nfrom wavetank import program\nsys.exit(program.run('web', command.main, ['any.bag', '--port', '0']))"
+        done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=20)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_a_page_above_the_number_is_not_obeyed(self):
+        from wavetank.web.server import Server
+
+        async def talk():
+            server, source, stopped = Server("127.0.0.1", 0, 1), MadeTank(), asyncio.Event()
+            work = asyncio.ensure_future(server.serve(source, stopped))
+            connection = await self.connect(url=server.url)
+            await self.next_of(connection, "hello")
+            push = {"do": "push", "body": "boat", "force": [1.0, 0.0, 0.0], "torque": [0.0, 0.0, 0.0]}
+            reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+            head = "GET /socket HTTP/1.1\r\nHost: %s\r\nOrigin: %s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+            text = json.dumps(dict(push, force=[2, 0, 0])).encode()
+            writer.write(
+                (head % (server.url[len("http://") : -1], server.url[:-1])).encode() + bytes([0x81, 0x80 | len(text)]) + bytes(4) + text
+            )  # masked by zeros
+            self.assertIn(b"1 pages are open", await asyncio.wait_for(reader.readuntil(b"may be"), 10))
+            await asyncio.sleep(0.1)
+            await connection.write_message(json.dumps(push))
+            self.assertTrue((await self.next_of(connection, "answer"))[0]["ok"])
+            self.assertEqual(source.calls, [push])
+            writer.close()
+            connection.close()
+            stopped.set()
+            await work
+
+        asyncio.run(talk())
+
+    def test_by_any_address_of_this_machine_but_by_no_foreign_name(self):
+        process, url = start_server(self.bag, "--address", "0.0.0.0")
+        self.addCleanup(end, process)
+        port = int(url[:-1].rpartition(":")[2])
+
+        async def talk(url):
+            connection = await self.connect(url=url)
+            await self.next_of(connection, "hello")
+            connection.close()
+
+        own = "http://127.0.0.2:%d/" % port
+        with urllib.request.urlopen(own) as page:
+            self.assertEqual(page.status, 200)
+        asyncio.run(talk(own))
+        for host in ("elsewhere.org:%d" % port, "127.0.0.3"):
+            with self.assertRaises(urllib.error.HTTPError, msg=host) as raised:
+                urllib.request.urlopen(urllib.request.Request(own, headers={"Host": host}))
+            self.assertEqual(raised.exception.code, 403, host)
+            self.assertIn("--name", raised.exception.read().decode())
+
     def test_files(self):
         for name in ("", "page.js", "style.css", "library/three.js", "library/orbit.js", "library/dygraph.js", "library/dygraph.css"):
             with urllib.request.urlopen(self.url + name) as answer:
@@ -421,21 +809,29 @@ class Server(WithBag):
     def test_what_is_wrong_is_one_sentence(self):
         self.assertIn("is taken", self.refused(self.bag, "--port", self.host.rpartition(":")[2]))
         self.assertIn("no address of this machine", self.refused(self.bag, "--port", "0", "--address", "203.0.113.1"))
+        self.assertIn("is empty", self.refused(self.bag, "--port", "0", "--address", ""))
         self.assertIn("0 to 65535", self.refused(self.bag, "--port", "99999"))
         self.assertIn("there is no bag", self.refused(self.bag + ".not", "--port", "0"))
         dry = self.bag + ".dry.bag"
         write_bag(dry, clouds=False)
         self.assertIn("no point clouds: write it with wavetank_run --clouds", self.refused(dry, "--port", "0"))
+        short = self.bag + ".short.bag"
+        for topic, message in (("markers", MarkerArray([Marker()])), ("surface_mesh", Marker()), ("probes", ProbeArray(names=["P1"]))):
+            shutil.copy(self.bag, short)
+            with rosbag.Bag(short, "a") as bag:
+                buffer = io.BytesIO()
+                message.serialize(buffer)
+                bag.write("/wavetank/" + topic, (message._type, buffer.getvalue()[:6], message._md5sum, type(message)), rospy.Time(0, 1), raw=True)
+            with self.assertRaises(Failure, msg=topic) as raised:
+                Replay(short)
+            self.assertIn("cannot be read", str(raised.exception))
 
     def test_ends_cleanly_with_a_page_open(self):
         process, url = start_server(self.bag)
         self.addCleanup(end, process)
 
         async def talk():
-            from tornado.httpclient import HTTPRequest
-            from tornado.websocket import websocket_connect
-
-            connection = await websocket_connect(HTTPRequest(url.replace("http", "ws") + "socket", headers={"Origin": url[:-1]}))
+            connection = await self.connect(url=url)
             await self.next_of(connection, "hello")
             process.terminate()
             while await asyncio.wait_for(connection.read_message(), 10) is not None:
@@ -483,8 +879,80 @@ class InTheBrowser(WithBag):
         self.assertEqual(browser.get("document.querySelector('.plot .values').textContent.trim()").split()[0], "P1")
         self.assertTrue(math.isclose(browser.get("[...wavetank.plots.all.values()][0].row()[1]"), 400.0))
         self.assertEqual(browser.errors(), [])
+        bad = ("wavetank._hear('{')", """wavetank._hear('{"kind": "poses", "poses": {"boat": null}}')""", "wavetank._hear(new ArrayBuffer(2))")
+        self.assertEqual(browser.driver.execute_script("const before = wavetank.unseen; %s; return wavetank.unseen - before" % "; ".join(bad)), 3)
+        self.assertIn("cannot be shown", browser.get("document.getElementById('answer').textContent"))
+        self.assertEqual(len(browser.errors()), 3)
+        browser.press("step")
+        browser.wait("wavetank.time === 0.4")
         browser.quit()
         self.assertEqual(end(process), 0)
+
+    def test_a_tank_that_is_reset_falls_silent_and_is_another(self):
+        from selenium.webdriver import ActionChains
+        from wavetank.web.server import Server
+
+        source, ready, running = MadeTank(), threading.Event(), {}
+
+        async def serve():
+            running.update(server=Server("127.0.0.1", 0, 1), stopped=asyncio.Event(), loop=asyncio.get_running_loop())
+            ready.set()
+            await running["server"].serve(source, running["stopped"])
+
+        thread = threading.Thread(target=asyncio.run, args=(serve(),))
+        thread.start()
+        ready.wait()
+        hub = running["server"].hub
+
+        def do(function, *arguments):
+            running["loop"].call_soon_threadsafe(function, *arguments)
+
+        def status(stamp, time):
+            do(hub.publish, "status", {"kind": "status", "stamp": stamp, "time": time, "step": 1, "phase": 1, "paused": False, "real_time_factor": None})
+
+        def silent(is_so):
+            do(hub.publish, "silence", {"kind": "silence", "silent": is_so, "master": True})
+
+        def sample(times, clear):
+            do(hub.add, {"name": "probes", "columns": ["P"], "units": ["Pa"]}, numpy.array(times), numpy.array([times]).T, clear)
+
+        self.addCleanup(thread.join)
+        self.addCleanup(do, running["stopped"].set)
+        browser = Browser()
+        self.addCleanup(browser.quit)
+        browser.driver.get(running["server"].url)
+        browser.wait("window.wavetank && wavetank.hello")
+        clock, values = "document.getElementById('clock').textContent", "document.querySelector('.plot .values').textContent"
+        status(5.5, 5.5)
+        sample([1.0, 2.0], True)
+        browser.wait("wavetank.plots.all.size && %s === 't = 5.500 s' && %s === 'P 2'" % (clock, values))
+        status(6.0, 0.0)
+        sample([], True)
+        browser.wait("%s === 't = 0.000 s' && %s === 'P –'" % (clock, values))
+        sample([0.5], False)
+        browser.wait(values + " === 'P 0.5'")
+
+        silent(False)
+        button = browser.driver.find_element("css selector", "#pushes button")
+        browser.wait("!document.querySelector('#pushes button').disabled")
+        ActionChains(browser.driver).click_and_hold(button).perform()
+        while len(source.calls) < 3:
+            time.sleep(0.01)
+        silent(True)  # so that the button is disabled while it is held
+        browser.wait("document.querySelector('#pushes button').disabled")
+        time.sleep(0.3)
+        self.assertEqual(source.calls[-1]["force"], [0, 0, 0])
+        pushes = len(source.calls)
+        ActionChains(browser.driver).release().perform()
+        silent(False)
+        time.sleep(0.3)
+        self.assertEqual(len(source.calls), pushes, "it is not held any more")
+
+        source.run = 1
+        do(hub.publish, "hello", source.hello())
+        browser.wait("document.title.startsWith('run 1') && !wavetank.plots.all.size")
+        self.assertEqual(browser.errors(), [])
+        browser.quit()
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class SampleMessages {
   /// Of mooring `index`, of the tank and then of the bodies.
   MooringTension mooring(std::size_t index, const MooringSample& sample, const StampClock& clock) const;
   /// The moorings' lines.
-  visualization_msgs::MarkerArray mooring_markers(const MooringSample& sample) const;
+  visualization_msgs::MarkerArray mooring_markers(const MooringSample& sample, const StampClock& clock) const;
   /// On body `index` (0 the tank), in its frame and about that frame's origin.
   geometry_msgs::WrenchStamped wrench(std::size_t index, Part part, const WrenchSample& sample, const StampClock& clock) const;
 
@@ -81,7 +81,7 @@ class SampleMessages {
       for (std::size_t i = 0; i < imu_topics_.size(); ++i) pass(imu_topics_[i], imu(i, sample, clock));
     for (const MooringSample& sample : samples.moorings) {
       for (std::size_t i = 0; i < mooring_topics_.size(); ++i) pass(mooring_topics_[i], mooring(i, sample, clock));
-      if (are_drawn(sample)) sink(markers_topic, clock.at(sample.time), mooring_markers(sample));
+      if (are_drawn(sample)) sink(markers_topic, clock.at(sample.time), mooring_markers(sample, clock));
     }
     for (const FlowSample& sample : samples.flows)
       for (std::size_t i = 0; i < flow_topics_.size(); ++i) pass(flow_topics_[i], flow(i, sample, clock));

@@ -2,6 +2,7 @@
 thousand a second, and a bag with samples at 1 kHz has hundreds of thousands."""
 
 import bz2
+import contextlib
 import os
 import struct
 
@@ -73,6 +74,14 @@ class BagFile:
             return Failure("'%s' is not whole: it is being written, or the run that wrote it died; then rosbag reindex makes it readable" % self.path)
         return Failure("'%s' is not whole and has no index: rosbag reindex makes it readable" % self.path)
 
+    @contextlib.contextmanager
+    def reading(self, kind):
+        """Raises Failure where messages of that type are not as their definition has them."""
+        try:
+            yield
+        except (IndexError, KeyError, TypeError, ValueError, struct.error):
+            raise Failure("'%s' holds a %s that cannot be read" % (self.path, kind))
+
     def _record(self, place):
         """Fields of the header, and begin and end of the data, of the record at a place."""
         (length,) = struct.unpack_from("<I", self._data, place)
@@ -110,20 +119,20 @@ class BagFile:
                     continue
                 chunk = self._chunk(header, begin, end)
                 for number in found.keys() & indices.keys():
-                    for offsets in self._offsets(indices[number]):
-                        found[number].extend(cut(chunk, offsets))
+                    for entries in self._entries(indices[number]):
+                        found[number].extend(cut(chunk, entries["offset"].astype(numpy.int64)))
         except (IndexError, KeyError, ValueError, struct.error):
             raise self._unreadable()
         return found
 
     def places(self, number):
-        """Where the messages of a connection are, for message(): those that are large are read one at a time."""
+        """Where the messages of a connection are, for message(), each with the time (ns) that it was recorded: those that are large are read one at a time."""
         try:
             return [
-                (n, int(offset))
+                ((n, int(offset)), int(time))
                 for n, (_, _, _, indices) in enumerate(self._all_chunks())
-                for offsets in self._offsets(indices.get(number, []))
-                for offset in offsets
+                for entries in self._entries(indices.get(number, []))
+                for offset, time in zip(entries["offset"], entries["secs"].astype(numpy.int64) * 1000000000 + entries["nsecs"])
             ]
         except (IndexError, KeyError, ValueError, struct.error):
             raise self._unreadable()
@@ -149,10 +158,9 @@ class BagFile:
             self._chunks = list(self._scan())
         return self._chunks
 
-    def _offsets(self, places):
+    def _entries(self, places):
         for first, last in places:
-            entries = numpy.frombuffer(self._data[first:last].tobytes(), dtype=[("time", "<u8"), ("offset", "<u4")])
-            yield entries["offset"].astype(numpy.int64)
+            yield numpy.frombuffer(self._data[first:last].tobytes(), dtype=[("secs", "<u4"), ("nsecs", "<u4"), ("offset", "<u4")])
 
     def _scan(self):
         """Of each chunk its header, where its data begin and end, and by connection where the records of its index do."""

@@ -8,7 +8,7 @@ import numpy
 import yaml
 
 from wavetank import Failure
-from wavetank.scenery import package_path
+from wavetank.meshes import package_path
 
 ANGLE = 45.0  # degrees, from the lower to the upper edge, as rviz has it
 

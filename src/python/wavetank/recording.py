@@ -160,16 +160,17 @@ class Recording:
     def has_cloud(self, name):
         return bool(self._connections(name, CLOUD))
 
-    def stream(self, name, kind, header_at=0):
-        """The messages of that name and type, one at a time. header_at: bytes before their header."""
-        return Stream(self._bag, self._connections(name, kind), kind, header_at)
+    def stream(self, name, kind, header_at=0, take_recorded=False):
+        """The messages of that name and type, one at a time. header_at: bytes before their header. take_recorded: see Stream."""
+        return Stream(self._bag, self._connections(name, kind), kind, header_at, take_recorded)
 
     def first(self, name, kind):
         """The first message of that name and type under the namespace, as nested dictionaries and lists; None if there is none."""
         for number in self._connections(name, kind):
-            types = read_definition(kind, self._bag.connections[number].definition)
-            for rows in self._bag.messages({number})[number]:
-                return read_tree(types, kind, rows[0].tobytes())
+            with self._bag.reading(kind):
+                types = read_definition(kind, self._bag.connections[number].definition)
+                for rows in self._bag.messages({number})[number]:
+                    return read_tree(types, kind, rows[0].tobytes())
         return None
 
     def text(self, name):
@@ -190,10 +191,11 @@ class Recording:
         pieces = []
         for number, blocks in self._bag.messages(set(numbers)).items():
             connection = self._bag.connections[number]
-            types = read_definition(connection.kind, connection.definition)
-            for rows in joined(blocks):
-                pieces.extend((which, *columns_of(values, texts), stamp_of(values), texts) for values, texts, which in decode(types, connection.kind, rows))
-        return self._put_together(name, pieces)
+            with self._bag.reading(connection.kind):
+                types = read_definition(connection.kind, connection.definition)
+                for rows in joined(blocks):
+                    pieces.extend((which, *columns_of(values, texts), stamp_of(values), texts) for values, texts, which in decode(types, connection.kind, rows))
+        return self._put_together(name, [piece for piece in pieces if piece[1]] or pieces)
 
     def _put_together(self, name, pieces):
         if not pieces:
@@ -220,16 +222,21 @@ def joined(blocks):
 
 
 class Stream:
-    """Messages that are too large to be read all at once. stamps: ns of simulated time, in order."""
+    """Messages that are too large to be read all at once. stamps: ns of simulated time, in order.
 
-    def __init__(self, bag, connections, kind, header_at=0):
+    take_recorded: where none of them has a stamp, as the markers of earlier versions, the times that they were recorded."""
+
+    def __init__(self, bag, connections, kind, header_at=0, take_recorded=False):
         self._bag, self._kind = bag, kind
         found = []
         for number in connections:
-            types = read_definition(kind, bag.connections[number].definition)
-            for place in bag.places(number):
-                seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, header_at + 12), header_at + 4)  # after the header's count
-                found.append((seconds * 1000000000 + nanoseconds, place, types))
+            with bag.reading(kind):
+                types = read_definition(kind, bag.connections[number].definition)
+                for place, recorded in bag.places(number):
+                    seconds, nanoseconds = struct.unpack_from("<II", bag.message(place, header_at + 12), header_at + 4)  # after the header's count
+                    found.append((seconds * 1000000000 + nanoseconds, place, types, recorded))
+        if take_recorded and not any(each[0] for each in found):
+            found = [(recorded, place, types, recorded) for _, place, types, recorded in found]
         found.sort(key=lambda each: each[0])
         self.stamps = numpy.array([each[0] for each in found], numpy.int64)
         self._found = found
@@ -239,8 +246,19 @@ class Stream:
 
     def read(self, n):
         """The n-th as read_tree has it."""
-        _, place, types = self._found[n]
-        return read_tree(types, self._kind, self._bag.message(place))
+        _, place, types, _ = self._found[n]
+        with self._bag.reading(self._kind):
+            return read_tree(types, self._kind, self._bag.message(place))
+
+    def group(self, n):
+        """The namespace of the n-th, a visualization_msgs/Marker, without its points, which are many."""
+        _, place, _, _ = self._found[n]
+        with self._bag.reading(self._kind):
+            end = 12
+            for _ in range(2):  # the header's frame, and the namespace
+                begin = end + 4
+                end = begin + struct.unpack_from("<I", self._bag.message(place, begin), begin - 4)[0]
+            return self._bag.message(place, end)[begin:].decode("utf-8", "replace")
 
 
 CLOUD = "sensor_msgs/PointCloud2"

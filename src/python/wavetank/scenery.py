@@ -1,11 +1,9 @@
 """What a bag shows: tank and bodies as meshes where they are, the water as a surface or as particles."""
 
-import os
-import re
-
 import numpy
 
 from wavetank import Failure
+from wavetank.meshes import triangles_of
 from wavetank.runs import read_yaml
 
 CLOUDS = ("particles", "free_surface")
@@ -36,38 +34,10 @@ def placed(marker, points):
     return turned(numpy.array([pose["orientation"][axis] for axis in "xyzw"], dtype=float), points) + vector(pose["position"])
 
 
-def read_stl(path):
-    """The corners of the triangles of a binary or ASCII STL file, three rows each."""
-    with open(path, "rb") as file:
-        content = file.read()
-    count = int.from_bytes(content[80:84], "little")
-    if len(content) == 84 + 50 * count:
-        facets = numpy.frombuffer(content, numpy.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")]), count, 84)
-        return facets["corners"].reshape(-1, 3).astype(float)
-    corners = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", content)
-    return numpy.array([[float(number) for number in corner] for corner in corners]).reshape(-1, 3)
-
-
-def package_path(uri):
-    """Of a package:// address, or None where the package is not known here."""
-    try:
-        import rospkg
-
-        package, _, rest = uri[len("package://") :].partition("/")
-        return os.path.join(rospkg.RosPack().get_path(package), rest)
-    except Exception:  # of rospkg, or that it is not installed
-        return None
-
-
 def resource_points(marker):
     """Of a mesh that a marker only names, as those of a live node do; None where it cannot be read here."""
-    path = package_path(marker["mesh_resource"]) if marker["mesh_resource"].startswith("package://") else None
-    if path is None or not path.lower().endswith(".stl"):
-        return None
-    try:
-        return read_stl(path) * vector(marker["scale"])
-    except (OSError, ValueError):
-        return None
+    triangles = triangles_of(marker["mesh_resource"])
+    return None if triangles is None else triangles * vector(marker["scale"])
 
 
 class Pose:

@@ -10,7 +10,8 @@ from xml.sax.saxutils import escape
 import numpy
 
 from wavetank import Failure
-from wavetank.scenery import TANK, Scenery, Surface, package_path
+from wavetank.meshes import package_path
+from wavetank.scenery import TANK, Scenery, Surface
 
 COLLECTION, VIEW, DATA = "case.pvd", "view.py", "data"
 SCRIPT = "package://wavetank/config/paraview/view.py"

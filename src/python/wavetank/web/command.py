@@ -17,8 +17,12 @@ def read_arguments(arguments):
     parser.add_argument("--tank", default="/wavetank", help="name of the tank's node (default /wavetank)")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
     parser.add_argument("--port", type=int, default=PORT, help="(default %d; 0: any that is free)" % PORT)
-    parser.add_argument("--address", default="127.0.0.1", help="that it listens to (default 127.0.0.1, this machine alone; 0.0.0.0: all; whoever reaches it may pause and push)")
-    parser.add_argument("--name", action="append", default=[], help="by which browsers elsewhere call this machine, beside its own name and addresses; may be repeated")
+    parser.add_argument(
+        "--address", default="127.0.0.1", help="that it listens to (default 127.0.0.1, this machine alone; 0.0.0.0: all; whoever reaches it may pause and push)"
+    )
+    parser.add_argument(
+        "--name", action="append", default=[], help="by which browsers elsewhere call this machine, beside its own name and addresses; may be repeated"
+    )
     parser.add_argument("--clients", type=int, default=CLIENTS, help="how many pages may be open at once (default %d)" % CLIENTS)
     options = parser.parse_args(arguments)
     if options.clients < 1:
@@ -46,7 +50,7 @@ def make_live(options, publish):
 
 async def serve(options):
     from wavetank.web.replay import Replay
-    from wavetank.web.server import Server
+    from wavetank.web.server import Server, in_thread
 
     loop, stopped = asyncio.get_running_loop(), asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -59,7 +63,13 @@ async def serve(options):
         except RuntimeError:  # the loop has ended
             pass
 
-    source = Replay(options.bag, options.namespace) if options.bag else make_live(options, publish)
+    # in a thread, so that it can be ended meanwhile: a large bag takes a while, and a ROS master may not answer
+    make = (Replay, options.bag, options.namespace) if options.bag else (make_live, options, publish)
+    made, ended = asyncio.ensure_future(in_thread(*make)), asyncio.ensure_future(stopped.wait())
+    await asyncio.wait({made, ended}, return_when=asyncio.FIRST_COMPLETED)
+    if not made.done():
+        return
+    source = made.result()
     print("%s shows %s" % (server.url, options.bag or options.tank), flush=True)
     try:
         await server.serve(source, stopped)

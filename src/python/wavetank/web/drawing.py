@@ -2,8 +2,8 @@
 
 import numpy
 
-from wavetank.web.meshes import triangles_of
-from wavetank.web.packets import colour_of, pack, rows_of
+from wavetank.meshes import triangles_of
+from wavetank.web.packets import colour_of, finite, pack, rows_of
 
 ADD, DELETE, DELETE_ALL = 0, 2, 3  # of visualization_msgs/Marker
 MESH = 10
@@ -31,6 +31,9 @@ class Drawing:
             elif marker["action"] == DELETE:
                 into.pop(name, None)
         return "drawing" if whole else "lines"
+
+    def forget_lines(self):
+        self._lines.clear()
 
     def packet(self, kind="drawing"):
         parts, arrays = [], {}
@@ -66,14 +69,12 @@ class Drawing:
         return self._meshes[uri]
 
 
-def finite(value):
-    return float(value) if numpy.isfinite(value) else 0.0
-
-
 def body_of(frame):
     """The body that a marker moves with, "" of what stays in the tank's frame."""
     return frame.rpartition("/bodies/")[2] if "/bodies/" in frame else ""
 
 
 def pose_numbers(position, turn):
-    return [float(value) for value in [*position, *turn]]
+    """None of what is no number: JavaScript reads no such JSON."""
+    numbers = [float(value) for value in [*position, *turn]]
+    return numbers if numpy.isfinite(numbers).all() else None

@@ -1,7 +1,9 @@
 """A tank that runs as the page's source: topics are taken as the bytes that come, and turned into numbers by the reader of bags, many at a time."""
 
+import http.client
 import threading
 import time
+import xml.parsers.expat
 import xmlrpc.client
 from collections import deque
 
@@ -32,21 +34,41 @@ class Instrument:
     def __init__(self, name, columns_of):
         self.name, self._columns_of = name, columns_of
         self.came = deque(maxlen=WAITING)
+        self.table, self.history, self._start = None, None, 0.0
+
+    def forget(self):
+        self.came.clear()
         self.table, self.history = None, None
+
+    def begin(self, start):
+        """Another run has begun, whose time 0 is this ROS time (s): what is before it is of the run before. Its samples, as read() has them, or None."""
+        before, self._start = self.history, start
+        if before is None:
+            return None
+        self.history = Series(len(self.table["columns"]), HISTORY)
+        of_run = before.times >= start
+        self.history.add(before.times[of_run], before.values[of_run])
+        return (*self.told(), True)
+
+    def told(self):
+        """(times, values) of the history: simulated time, s."""
+        return self.history.times - self._start, self.history.values
 
     def read(self):
         """(times, values, clear) of what has come since, with the history brought up to it; clear: the history before is of another run. None without any."""
         came = [self.came.popleft() for _ in range(len(self.came))]
-        if not came:
+        decoded = self._decoded(came) if came else None
+        if decoded is None:
             return None
-        times, values = self._decoded(came)
+        times, values = decoded
         clear = self.history is None or bool(len(self.history) and times[0] < self.history.times[-1])
         if clear:
             self.history = Series(len(self.table["columns"]), HISTORY)
         self.history.add(times, values)
-        return times, values, clear
+        return times - self._start, values, clear
 
     def _decoded(self, came):
+        """None where nothing is measured: a table without columns."""
         (kind, types), pieces = came[-1][0], []
         by_length = {}
         for _, data in came:
@@ -55,7 +77,10 @@ class Instrument:
             rows = numpy.frombuffer(b"".join(rows), numpy.uint8).reshape(len(rows), -1)
             for numbers, texts, _ in decode(types, kind, rows):
                 columns, _ = self._columns_of(numbers, texts)
-                pieces.append((stamp_of(numbers) / 1e9, columns))
+                if columns:
+                    pieces.append((stamp_of(numbers) / 1e9, columns))
+        if not pieces:
+            return None
         table = {"name": self.name, "columns": list(pieces[-1][1]), "units": [unit for _, unit in pieces[-1][1].values()]}
         if table != self.table:
             self.table, self.history = table, None
@@ -75,17 +100,32 @@ class Live:
         self.tank = "/" + tank.strip("/")
         self._publish = publish
         self._types, self._lock = {}, threading.Lock()
+        self._unread = set()  # names of topics of which that was told
         self._drawing, self._case = Drawing(), read_case(None)
+        self._text, self._run = None, 0  # of the case, and how many times it has been another one
         self._instruments, self._subscribers, self._pushes = {}, {}, {}
         self._poses_came, self._poses = {}, {}
         self._has_surface, self._master = False, True
         self._cloud_stamps, self._status_came = {}, None
+        self._start, self._start_told = 0.0, 0.0  # ROS time of simulated time 0, s: as samples are told, and as the tank said last
         self._subscribe("markers", self._drawn)
         self._subscribe("case", self._case_came)
         self._subscribe("status", self._status)
 
     def _subscribe(self, name, hear, **more):
-        self._subscribers[name] = rospy.Subscriber(self.tank + "/" + name, rospy.AnyMsg, hear, **more)
+        def hear_safely(message, *arguments):
+            try:
+                hear(message, *arguments)
+            except Exception as error:  # whatever a publisher of that name may send
+                self._leave_out(name, error)
+
+        self._subscribers[name] = rospy.Subscriber(self.tank + "/" + name, rospy.AnyMsg, hear_safely, **more)
+
+    def _leave_out(self, name, error):
+        """Tells once that what a topic sends cannot be read."""
+        if name not in self._unread:
+            self._unread.add(name)
+            rospy.logwarn("%s/%s sends what cannot be read, which is left out: %s: %s", self.tank, name, type(error).__name__, error)
 
     def stop(self):
         for subscriber in list(self._subscribers.values()):
@@ -111,7 +151,10 @@ class Live:
         self._publish(kind, packet)
 
     def _case_came(self, message):
-        self._case = read_case(self._tree(message)["data"])
+        text = self._tree(message)["data"]
+        if self._text not in (None, text):
+            self._run += 1
+        self._text, self._case = text, read_case(text)
         for body in self._case["free"]:
             if body not in self._pushes:
                 self._pushes[body] = rospy.Publisher("%s/bodies/%s/external_wrench" % (self.tank, body), WrenchStamped, queue_size=1)
@@ -120,6 +163,8 @@ class Live:
     def _status(self, message):
         self._status_came = time.monotonic()
         status = self._tree(message)
+        # a reset sets the simulation's time back, while stamps go on from a whole second
+        self._start_told = float(round(stamp_of_header(status) / 1e9 - float(status["time"])))
         told = {name: plain(status[name]) for name in STATUS + RATES if name in status}
         self._publish("status", dict(told, kind="status", stamp=stamp_of_header(status) / 1e9))
 
@@ -153,6 +198,7 @@ class Live:
     def hello(self):
         return {
             "kind": "hello",
+            "run": self._run,
             "mode": self.mode,
             "source": self.tank,
             "tank": self.tank,
@@ -165,16 +211,24 @@ class Live:
         }
 
     def greet(self, mailbox):
-        for instrument in self._instruments.values():
+        for instrument in list(self._instruments.values()):
             if instrument.history is not None:
-                mailbox.add(instrument.table, instrument.history.times, instrument.history.values, clear=True)
+                mailbox.add(instrument.table, *instrument.told(), clear=True)
+
+    def forget(self):
+        """What came of another tank, whose samples and bodies are not this one's."""
+        self._poses_came.clear()
+        self._poses.clear()
+        for instrument in list(self._instruments.values()):
+            instrument.forget()
 
     def look_around(self):
         """Once a second: subscribes to what the tank has; tells what does not answer."""
         try:
             topics = rospy.get_published_topics()
             self._master = True
-        except (OSError, rospy.ROSException, xmlrpc.client.Error):
+        except (OSError, rospy.ROSException, xmlrpc.client.Error, http.client.HTTPException, xml.parsers.expat.ExpatError):
+            # there is no master, or something else in its place
             topics, self._master = [], False
         within = self.tank + "/"
         surface = any(topic == within + SURFACE for topic, _ in topics)
@@ -193,7 +247,9 @@ class Live:
             body = name.split("/")[1]
             self._subscribe(name, self._pose, callback_args=body, queue_size=1)
         elif is_plotted(name):
-            instrument = self._instruments[name] = Instrument(name, columns_of)
+            instrument = Instrument(name, columns_of)
+            instrument.begin(self._start)
+            self._instruments[name] = instrument
             self._subscribe(name, lambda message: instrument.came.append((self._definition(message), message._buff)), tcp_nodelay=True)
 
     def show(self, wanted):
@@ -210,9 +266,16 @@ class Live:
                 self._cloud_stamps.pop(name, None)
 
     def samples(self):
-        """(table, times, values, clear) of each instrument that has new ones."""
+        """(table, times, values, clear) of each instrument that has new ones, or whose run has begun again."""
+        begins, self._start = self._start_told != self._start, self._start_told
         for instrument in list(self._instruments.values()):
-            read = instrument.read()
+            try:
+                read = instrument.read()
+            except Exception as error:  # the same
+                self._leave_out(instrument.name, error)
+                read = None
+            if begins:
+                read = instrument.begin(self._start)
             if read:
                 yield (instrument.table, *read)
 
@@ -220,8 +283,14 @@ class Live:
         """Of all bodies, if any has moved since: the packet, or None."""
         came = [(body, self._poses_came.pop(body)) for body in list(self._poses_came)]
         for body, message in came:
-            pose = self._tree(message)["pose"]["pose"]
-            self._poses[body] = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            try:
+                pose = self._tree(message)["pose"]["pose"]
+                numbers = pose_numbers([pose["position"][axis] for axis in "xyz"], [pose["orientation"][axis] for axis in "xyzw"])
+            except Exception as error:  # the same
+                self._leave_out("bodies/%s/odom" % body, error)
+                continue
+            if numbers:
+                self._poses[body] = numbers
         return {"kind": "poses", "poses": dict(self._poses)} if came else None
 
     def call(self, request):

@@ -20,6 +20,9 @@ class Mailbox:
     def drop(self, kind):
         self._newest.pop(kind, None)
 
+    def drop_samples(self):
+        self._series.clear()
+
     def answer(self, text):
         self._answers.append(text)
 

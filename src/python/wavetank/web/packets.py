@@ -103,11 +103,15 @@ def surface_packet(marker, stamp, header=None):
 def spray_packet(marker, stamp, header=None):
     """The points of a visualization_msgs/Marker."""
     points = rows_of(marker["points"]) if len(marker["points"]) else numpy.empty((0, 3), "<f4")
-    return pack(dict(header or {}, kind="spray", time=stamp / 1e9, colour=colour_of(marker), size=float(marker["scale"]["x"])), points=points)
+    return pack(dict(header or {}, kind="spray", time=stamp / 1e9, colour=colour_of(marker), size=finite(marker["scale"]["x"])), points=points)
 
 
 def colour_of(marker):
-    return [float(marker["color"][part]) for part in "rgba"]
+    return [finite(marker["color"][part]) for part in "rgba"]
+
+
+def finite(value):
+    return float(value) if numpy.isfinite(value) else 0.0
 
 
 def series_packet(table, times, values, clear=False):

@@ -1,7 +1,9 @@
 """A bag as the page's source: each client asks for the pictures of the times that it shows."""
 
 import bisect
+import math
 import os
+import sys
 
 import yaml
 
@@ -11,7 +13,7 @@ from wavetank.scenery import CLOUDS, MARKER, MARKERS, SURFACE, Pose
 from wavetank.web.drawing import Drawing, pose_numbers
 from wavetank.web.packets import cloud_packet, spray_packet, surface_packet
 from wavetank.web.requests import REPLAY
-from wavetank.web.series import Series
+from wavetank.web.series import thinned
 
 HIDDEN = ("/pressure", "/viscous", "/odom", "status", "joint_states")  # ends of names that have no plot
 SHOWN_SAMPLES = 4096  # of an instrument
@@ -38,26 +40,21 @@ class Replay:
         if not self.waters:
             raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds, or record:=true clouds:=true of a launch file" % path)
         self._case = read_case(self._recording.text("case"))
-        self._poses = {name.split("/")[1]: Pose(self._recording.table(name)) for name in self._recording.names if name.endswith("/odom")}
-        self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4), Drawing()
+        odometry = [self._recording.table(name) for name in self._recording.names if name.endswith("/odom")]
+        self._poses = {table.name.split("/")[1]: Pose(table) for table in odometry if len(table)}
+        self._drawings, self._drawing = self._recording.stream("markers", MARKERS, header_at=4, take_recorded=True), Drawing()
         if len(self._drawings):
             self._drawing.follow(self._drawings.read(0))
-        self._series = [self._read_series(name) for name in self._recording.names if is_plotted(name)]
+        tables = (self._recording.table(name) for name in self._recording.names if is_plotted(name))
+        self._tables = [(table, table.array(*table.columns)) for table in tables if len(table) and table.columns]
 
     def _split_surface(self):
         """Numbers of the messages that draw the surface, and those that draw the spray, with their times."""
         self._markers = self._recording.stream(SURFACE, MARKER)
         found = {"surface": [], "spray": []}
         for n, stamp in enumerate(self._markers.stamps.tolist()):
-            found.get(self._markers.read(n)["ns"], []).append((stamp, n))
+            found.get(self._markers.group(n), []).append((stamp, n))
         return found["surface"], found["spray"]
-
-    def _read_series(self, name):
-        table = self._recording.table(name)
-        series = Series(len(table.columns), SHOWN_SAMPLES)
-        if table.columns:
-            series.add(table.times, table.array(*table.columns))
-        return table_of(table), series
 
     def known(self):
         return {"waters": self.waters, "bodies": []}
@@ -66,6 +63,7 @@ class Replay:
         stamps = sorted({stamp for messages in self._clouds.values() for stamp in messages.stamps.tolist()} | {stamp for stamp, _ in self._surface})
         return {
             "kind": "hello",
+            "run": 0,
             "mode": self.mode,
             "source": os.path.basename(self._recording.path),
             "tank": self._recording.namespace,
@@ -80,35 +78,53 @@ class Replay:
     def greet(self, mailbox):
         """What a new client gets."""
         mailbox.put("drawing", self._drawing.packet())
-        for table, series in self._series:
-            if len(series):
-                mailbox.add(table, series.times, series.values)
+        for table, values in self._tables:
+            times = table.times
+            while len(times) > SHOWN_SAMPLES:  # as fine at the beginning as at the end
+                times, values = thinned(times, values)
+            mailbox.add(table_of(table), times, values)
 
     def pictures(self, time, water):
         """Packets by kind of what the bag has last at a time (s), or first where that is later."""
         stamp = int(round(time * 1e9))
         pictures = self._surface_pictures(stamp) if water == "surface" else self._cloud_pictures(stamp, water)
-        lines = bisect.bisect_right(self._drawings.stamps, stamp) - 1
-        if lines > 0 and self._drawing.follow(self._drawings.read(lines)) == "lines":
-            pictures["lines"] = self._drawing.packet("lines")
+        if len(self._drawings) > 1:
+            pictures["lines"] = self._lines_at(stamp)
         return pictures
+
+    def _lines_at(self, stamp):
+        """Each message draws them all; before the first there are none."""
+        self._drawing.forget_lines()
+        lines = bisect.bisect_right(self._drawings.stamps, stamp) - 1
+        if lines > 0:
+            self._drawing.follow(self._drawings.read(lines))
+        return self._drawing.packet("lines")
 
     def _cloud_pictures(self, stamp, water):
         messages = self._clouds[water]
         cloud = messages.read(max(bisect.bisect_right(messages.stamps, stamp) - 1, 0))
         at = stamp_of_header(cloud)
-        return {"cloud": cloud_packet(water, at, cloud_of(cloud), {"poses": self._poses_at(at)})}
+        return {"cloud": cloud_packet(water, at, cloud_of(cloud), self._all_at(at))}
 
     def _surface_pictures(self, stamp):
         pictures, at = {}, stamp
         for kind, numbers, packet in (("surface", self._surface, surface_packet), ("spray", self._spray, spray_packet)):
             if numbers:
                 at, n = numbers[max(bisect.bisect_right(numbers, (stamp, len(self._markers))) - 1, 0)]
-                pictures[kind] = packet(self._markers.read(n), at, {"poses": self._poses_at(at)})
+                pictures[kind] = packet(self._markers.read(n), at, self._all_at(at))
         return pictures
 
+    def _all_at(self, stamp):
+        return {"poses": self._poses_at(stamp), "values": self._values_at(stamp)}
+
+    def _values_at(self, stamp):
+        """Of each instrument what it measured last at that time, or first: plots are thinned. None of what is no number."""
+        rows = {table.name: values[max(bisect.bisect_right(table.stamps, stamp) - 1, 0)] for table, values in self._tables}
+        return {name: [float(value) if math.isfinite(value) else None for value in row] for name, row in rows.items()}
+
     def _poses_at(self, stamp):
-        return {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}
+        poses = {name: pose_numbers(*pose.at(stamp)) for name, pose in self._poses.items()}
+        return {name: pose for name, pose in poses.items() if pose}
 
 
 def stamp_of_header(message):
@@ -120,17 +136,26 @@ def read_case(text):
     """What the page wants to know of a case: title, dimensions, spacing (m), free bodies with their mass (kg; None where it is not told); each has a default where
     the bag or node does not tell."""
     try:
-        case = yaml.load(text or "", Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError:
-        case = None
-    case = case if isinstance(case, dict) else {}
-    fluid = case.get("fluid") if isinstance(case.get("fluid"), dict) else {}
-    spacing = fluid.get("spacing")
-    owners = [dict(case.get("tank") or {}, name="tank")] + [body for body in case.get("bodies") or [] if isinstance(body, dict)]
+        case = mapping(yaml.load(text or "", Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)))
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError):  # the loader's own, and those of dates that are none and the like
+        case = {}
+    bodies = case.get("bodies") if isinstance(case.get("bodies"), list) else []
+    owners = [dict(mapping(case.get("tank")), name="tank")] + [body for body in map(mapping, bodies) if isinstance(body.get("name"), str)]
     return {
         "title": str(case.get("title") or ""),
         "dimensions": 2 if case.get("dimensions") == 2 else 3,
-        "spacing": float(spacing) if isinstance(spacing, (int, float)) else None,
-        "world_frame": str(case.get("world_frame") or ""),
-        "free": {str(owner["name"]): owner.get("mass") if isinstance(owner.get("mass"), (int, float)) else None for owner in owners if owner.get("motion") == "free"},
+        "spacing": number_of(mapping(case.get("fluid")).get("spacing")),
+        "world_frame": str(case.get("world_frame") or "tank"),  # the case's default: an empty one would be the body's own in a push
+        "free": {owner["name"]: number_of(owner.get("mass")) for owner in owners if owner.get("motion") == "free"},
     }
+
+
+def mapping(value):
+    return value if isinstance(value, dict) else {}
+
+
+def number_of(value):
+    """A finite one, or None."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
+        return None
+    return float(value)

@@ -1,7 +1,6 @@
 """What a client may ask for. Whatever comes is looked at here before anything is done with it."""
 
 import json
-import math
 
 LONGEST = 4096  # characters
 
@@ -17,7 +16,8 @@ def flag(name, value, known):
 
 
 def number(name, value, least, greatest):
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or not least <= value <= greatest:
+    # the range is looked at first: it holds neither nan nor what has too many digits for a float
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= greatest:
         raise Refused("'%s' is a number from %g to %g" % (name, least, greatest))
     return float(value)
 

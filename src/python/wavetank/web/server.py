@@ -3,6 +3,7 @@
 import asyncio
 import errno
 import json
+import logging
 import os
 import socket
 import threading
@@ -16,7 +17,7 @@ import tornado.websocket
 from wavetank import Failure
 from wavetank.web.libraries import JAVASCRIPT, LIBRARIES, library_path
 from wavetank.web.mailbox import Mailbox
-from wavetank.web.requests import Refused, origin_is_ours, read_request
+from wavetank.web.requests import Refused, host_name, origin_is_ours, read_request
 
 STATIC = os.path.join(os.path.dirname(os.path.abspath(__file__)), "static")
 AHEAD = 4  # pictures that a client may have been sent and not yet drawn: what lies in buffers on the way is old when it comes
@@ -25,6 +26,7 @@ LONGEST_MESSAGE = 65536  # bytes, of a client; a longer one ends its connection
 SAMPLES_EVERY, POSES_EVERY, LOOK_EVERY = 0.1, 0.05, 1.0  # s of wall time
 FULL, GOING_AWAY = 1013, 1001  # of RFC 6455
 KEPT = ("hello", "drawing", "lines", "status", "silence", "poses")  # kinds whose newest a new client gets, beside the water that it asks for
+WATERS = ("particles", "free_surface", "surface", "spray")  # kinds of which a client wants one alone, and with the surface its spray
 
 
 async def in_thread(function, *arguments):
@@ -50,7 +52,8 @@ async def in_thread(function, *arguments):
 
 
 def text_of(packet):
-    return packet if isinstance(packet, bytes) else json.dumps(packet, separators=(",", ":"))
+    """Raises ValueError of what is no number: a page could not read it."""
+    return packet if isinstance(packet, bytes) else json.dumps(packet, separators=(",", ":"), allow_nan=False)
 
 
 class Hub:
@@ -59,16 +62,39 @@ class Hub:
     def __init__(self, most_clients):
         self.most_clients = most_clients
         self.clients, self.newest = set(), {}
-        self.wanted_changed = lambda wanted: None
+        self.run = 0  # of the hello that came last
+        self.wanted_changed, self.run_changed = lambda wanted: None, lambda: None
 
     def publish(self, kind, packet):
         """A picture, to all that want it. In the loop's thread."""
+        if kind == "hello" and packet["run"] != self.run:
+            self.run = packet["run"]
+            self.forget()
+        if kind == "drawing":  # the whole: what was drawn beside the one before is no more
+            self.drop("lines")
         packet = text_of(packet)
-        self.newest[kind] = packet
-        for client in self.clients:
-            if client.wants(kind):
+        wanting = [client for client in self.clients if client.wants(kind)]
+        if kind in KEPT or wanting:
+            self.newest[kind] = packet
+        for client in wanting:
+            if kind == "hello":
+                client.mailbox.answer(packet)  # before all that belongs to it
+            else:
                 client.mailbox.put(kind, packet)
-                client.wake.set()
+            client.wake.set()
+
+    def forget(self):
+        """What is of the tank before: the drawing that comes of another takes the place of the one before by itself, and may have come already."""
+        for kind in [*WATERS, "lines", "poses", "status"]:
+            self.drop(kind)
+        for client in self.clients:
+            client.mailbox.drop_samples()
+        self.run_changed()
+
+    def drop(self, kind):
+        self.newest.pop(kind, None)
+        for client in self.clients:
+            client.mailbox.drop(kind)
 
     def add(self, table, times, values, clear):
         for client in self.clients:
@@ -77,7 +103,7 @@ class Hub:
 
     def tell_wanted(self):
         wanted = {client.water for client in self.clients} - {None}
-        for name in ("particles", "free_surface", "surface", "spray"):
+        for name in WATERS:
             if name not in wanted and not (name == "spray" and "surface" in wanted):
                 self.newest.pop(name, None)
         self.wanted_changed(wanted)
@@ -92,7 +118,7 @@ class Client(tornado.websocket.WebSocketHandler):
         self.busy, self.requests, self.ahead = asyncio.Lock(), 0, 0
 
     def check_origin(self, origin):
-        return origin_is_ours(origin, self.request.host, self.server.names)
+        return origin_is_ours(origin, self.request.host, names_for(self.request, self.server.names))
 
     async def get(self, *arguments, **named):
         # tornado lets a client without an Origin pass: browsers send one always
@@ -107,14 +133,18 @@ class Client(tornado.websocket.WebSocketHandler):
         if len(self.hub.clients) >= self.hub.most_clients:
             self.close(FULL, "%d pages are open, and no more may be" % self.hub.most_clients)
             return
-        self.hub.clients.add(self)
         self.mailbox.answer(text_of(self.source.hello()))  # before all else
         for kind in KEPT:
             if kind in self.hub.newest and kind != "hello":
                 self.mailbox.put(kind, self.hub.newest[kind])
         self.source.greet(self.mailbox)
+        self.hub.clients.add(self)  # last: what fails before is closed, and must not count
         self.sender = asyncio.ensure_future(self.send())
         self.wake.set()
+
+    def is_let_in(self):
+        """Not one above the number of pages that may be open, nor one that has gone: neither is obeyed, whatever it has sent."""
+        return self in self.hub.clients
 
     def wants(self, kind):
         return kind in KEPT or kind == self.water or (kind == "spray" and self.water == "surface")
@@ -136,8 +166,10 @@ class Client(tornado.websocket.WebSocketHandler):
 
     async def on_message(self, text):
         # tornado reads the next message when this is done: who asks faster than it is answered, or does not read answers, is not read either
-        while self in self.hub.clients and self.requests + self.mailbox.answers() >= WAITING_REQUESTS:
+        while self.is_let_in() and self.requests + self.mailbox.answers() >= WAITING_REQUESTS:
             await asyncio.sleep(0.01)
+        if not self.is_let_in():
+            return
         try:
             request = read_request(text, self.source.requests, self.source.known())
         except Refused as refused:
@@ -151,15 +183,20 @@ class Client(tornado.websocket.WebSocketHandler):
         asyncio.ensure_future(self.answer_to(request))
 
     async def answer_to(self, request):
-        """One after the other, in their order."""
+        """One after the other, in their order. Whatever goes wrong is an answer: the page waits for one."""
         try:
             async with self.busy:
-                text = await self.do(request)
-            self.answer({"kind": "answer", "do": request["do"], "ok": True, "text": text or ""})
-        except Refused as refused:
-            self.answer({"kind": "answer", "do": request["do"], "ok": False, "text": str(refused)})
+                if not self.is_let_in():
+                    return
+                text, ok = await self.do(request) or "", True
+        except (Refused, Failure) as failure:
+            text, ok = str(failure), False
+        except Exception:
+            logging.getLogger("wavetank.web").exception("'%s' of a page failed", request["do"])
+            text, ok = "'%s' failed in the server, which tells more where it was started" % request["do"], False
         finally:
             self.requests -= 1
+        self.answer({"kind": "answer", "do": request["do"], "ok": ok, "text": text})
 
     def answer(self, packet):
         self.mailbox.answer(text_of(packet))
@@ -179,7 +216,7 @@ class Client(tornado.websocket.WebSocketHandler):
         return ""
 
     def show(self, water):
-        for kind in ("particles", "free_surface", "surface", "spray"):
+        for kind in WATERS:
             self.mailbox.drop(kind)
         self.water = water
         self.hub.tell_wanted()
@@ -198,9 +235,19 @@ class Client(tornado.websocket.WebSocketHandler):
 class Files(tornado.web.StaticFileHandler):
     """The page's own files, and those of the libraries that it has."""
 
+    def prepare(self):
+        """A page that was asked for by a name that is not ours could do nothing."""
+        host = self.request.host
+        if host_name(host) not in names_for(self.request, self.application.settings["names"]):
+            self.set_status(403)
+            self.set_header("Content-Type", "text/plain; charset=utf-8")
+            self.finish(
+                "This server does not go by the name '%s': open the page by its address, or start the server with --name of that name." % host_name(host)
+            )
+
     def set_extra_headers(self, path):
-        host = self.request.host if origin_is_ours("http://" + self.request.host, self.request.host, self.application.settings["names"]) else ""
-        self.set_header("Content-Security-Policy", "default-src 'self'; connect-src 'self' ws://%s; img-src 'self' data:; style-src 'self' 'unsafe-inline'" % host)
+        csp = "default-src 'self'; connect-src 'self' ws://%s; img-src 'self' data:; style-src 'self' 'unsafe-inline'"
+        self.set_header("Content-Security-Policy", csp % self.request.host)
         self.set_header("X-Content-Type-Options", "nosniff")
         self.set_header("X-Frame-Options", "DENY")
         self.set_header("Cache-Control", "no-cache")
@@ -228,7 +275,18 @@ def own_names(address):
     return names
 
 
+def names_for(request, names):
+    """And the address of this machine that it was reached by, of which it may have more than its own name tells."""
+    try:
+        reached = request.connection.stream.socket.getsockname()[0].lower().partition("%")[0]
+    except (AttributeError, OSError):  # it has gone
+        return names
+    return names | {reached, reached[len("::ffff:") :] if reached.startswith("::ffff:") else reached}
+
+
 def bind(address, port):
+    if not address.strip():
+        raise Failure("--address is empty: it is an address of this machine, or 0.0.0.0 for all that it has")
     if not 0 <= port <= 65535:
         raise Failure("--port is a number from 0 to 65535, not %d" % port)
     try:
@@ -252,6 +310,7 @@ class Server:
         self.names = own_names(address) | {name.lower() for name in names}
         self.hub, self.source = Hub(most_clients), None
         self._turn = asyncio.Lock()
+        self._wanted, self._wish = set(), asyncio.Event()
         shown = "localhost" if address in ("127.0.0.1", "::1") else socket.gethostname() if address in ("0.0.0.0", "::", "") else address
         self.url = "http://%s:%d/" % ("[%s]" % shown if ":" in shown else shown, self.port)
 
@@ -294,8 +353,22 @@ class Server:
     def _works(self):
         if self.source.mode != "live":
             return []
-        self.hub.wanted_changed = self.source.show
-        return [self._every(SAMPLES_EVERY, self._send_samples), self._every(POSES_EVERY, self._send_poses), self._look()]
+        self.hub.wanted_changed, self.hub.run_changed = self._want, self.source.forget
+        return [self._every(SAMPLES_EVERY, self._send_samples), self._every(POSES_EVERY, self._send_poses), self._look(), self._show()]
+
+    def _want(self, wanted):
+        self._wanted = wanted
+        self._wish.set()
+
+    async def _show(self):
+        """One wish after the other, the newest alone: a subscription waits for the ROS master, which may not answer."""
+        while True:
+            await self._wish.wait()
+            self._wish.clear()
+            try:
+                await in_thread(self.source.show, self._wanted)
+            except Exception:
+                logging.getLogger("wavetank.web").exception("what is shown cannot be changed")
 
     async def _every(self, seconds, work):
         while True:

@@ -14,6 +14,7 @@ class Page {
     this.status = null;
     this.paused = false;
     this.time = null;
+    this.start = 0;  // s, of the ROS time that pictures of a tank have, where its time 0 is: a reset sets it on
     this.unseen = 0;  // pictures that the server is to be told of when they are drawn
     this.player = { time: 0, playing: false, waiting: false, asked: null };
     this._listen();
@@ -44,7 +45,7 @@ class Page {
     this._badge("wait", "connecting");
     const socket = new WebSocket(`ws://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
-    socket.onmessage = (event) => this._take(typeof event.data === "string" ? JSON.parse(event.data) : unpack(event.data));
+    socket.onmessage = (event) => this._hear(event.data);
     socket.onclose = (event) => {
       this.socket = null;
       this.player.waiting = false;
@@ -64,15 +65,28 @@ class Page {
     if (this.socket && this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(request));
   }
 
-  _take(packet) {
-    const take = this["_take_" + packet.kind];
-    if (take) take.call(this, packet);
-    if (packet.kind !== "answer" && packet.kind !== "series") this.unseen += 1;
+  /** What cannot be read or shown is told, and counts as seen: the server sends the next only when it hears of that. */
+  _hear(data) {
+    let packet = null;
+    try {
+      packet = typeof data === "string" ? JSON.parse(data) : unpack(data);
+      const take = this["_take_" + packet.kind];
+      if (take) take.call(this, packet);
+    } catch (error) {
+      console.error(`${packet ? packet.kind : "a message"}: ${error.stack}`);
+      this.player.waiting = false;
+      answer(`What came of the server cannot be shown (${packet ? packet.kind : "a message"}): ${error.message}.`, true);
+    } finally {
+      if (!packet || (packet.kind !== "answer" && packet.kind !== "series")) this.unseen += 1;
+    }
   }
 
   _take_hello(packet) {
-    if (this.lost) {  // what was sent before the connection broke comes again
+    if (this.lost || (this.hello && this.hello.run !== packet.run)) {  // what was sent before the connection broke comes again, of another tank nothing does
       this.plots.clear();
+      this.view.forget();
+      this.status = this.time = null;
+      this.what = undefined;
       answer("");
       this.lost = false;
     }
@@ -122,7 +136,7 @@ class Page {
   _arrived(packet, what) {
     this.received = (this.received || 0) + 1;
     this.what = what;
-    this._setTime(packet.time);
+    this._setTime(packet.time - this.start, packet.values);
     if (!this.broken) notice("");
     this._showFacts();
   }
@@ -134,7 +148,11 @@ class Page {
   _take_status(packet) {
     this.status = packet;
     this.paused = Boolean(packet.paused);
-    if (packet.stamp > (this.time || 0) || this.what === undefined) this._setTime(packet.stamp);
+    const start = Math.round(packet.stamp - packet.time);
+    if (start !== this.start || packet.time > (this.time || 0) || this.what === undefined) {
+      this.start = start;
+      this._setTime(packet.time);
+    }
     if (packet.failure) answer(packet.failure, true);
     this._showState();
     this._showFacts();
@@ -186,11 +204,12 @@ class Page {
     find("facts").textContent = facts.join(" · ");
   }
 
-  _setTime(time) {
+  /** values: of a bag, by instrument, what it measured last. */
+  _setTime(time, values) {
     this.time = time;
     find("clock").textContent = `t = ${time.toFixed(3)} s`;
     if (!this.replay) return;
-    this.plots.setTime(time);
+    this.plots.setTime(time, values || {});
     if (this.player.playing) find("slider").value = time;  // with the pictures: each change of the page is drawn
   }
 
@@ -201,6 +220,7 @@ class Page {
     find("step").disabled = !alive || !stands;
     find("pause").textContent = stands ? (this.replay ? "Play" : "Continue") : "Pause";
     for (const button of document.querySelectorAll("#pushes button")) button.disabled = !alive;
+    if (!alive && this.endPush) this.endPush();
   }
 
   _listWaters(waters) {
@@ -315,24 +335,26 @@ class Page {
   _holdToPush(button) {
     const direction = button.dataset.push.split(" ").map(Number);
     let timer = null;
-    const begin = (event) => {
-      event.preventDefault();
-      if (button.disabled || timer) return;
-      button.classList.add("held");
-      this.push(direction);
-      timer = setInterval(() => this.push(direction), PUSH_EVERY);
-    };
     const end = () => {
       if (!timer) return;
       clearInterval(timer);
-      timer = null;
+      timer = this.endPush = null;
       button.classList.remove("held");
       this.push([0, 0, 0]);
     };
+    const begin = (event) => {
+      event.preventDefault();
+      if (button.disabled || timer) return;
+      if (this.endPush) this.endPush();
+      this.endPush = end;
+      button.classList.add("held");
+      this.push(direction);
+      timer = setInterval(() => (button.disabled || button.hidden ? end() : this.push(direction)), PUSH_EVERY);
+    };
     button.addEventListener("pointerdown", begin);
-    for (const name of ["pointerup", "pointerleave", "pointercancel", "blur"]) button.addEventListener(name, end);
+    for (const name of ["pointerleave", "blur"]) button.addEventListener(name, end);
+    for (const name of ["pointerup", "pointercancel", "blur", "keyup"]) window.addEventListener(name, end);  // a button that is disabled meanwhile hears of none
     button.addEventListener("keydown", (event) => { if ((event.key === " " || event.key === "Enter") && !event.repeat) begin(event); });
-    button.addEventListener("keyup", end);
   }
 
   _listen() {

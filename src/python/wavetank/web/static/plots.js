@@ -85,24 +85,19 @@ class Plot {
     this.changed = true;
   }
 
-  /** The row of a time, or the last. */
+  /** The values of a bag's time, which come with its picture, since rows are thinned; of a tank the last. */
   row() {
-    if (this.time === null || !this.rows.length) return this.rows[this.rows.length - 1];
-    let low = 0, high = this.rows.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.rows[middle][0] <= this.time + 1e-9) low = middle; else high = middle - 1;
-    }
-    return this.rows[low];
+    return this.time === null ? this.rows[this.rows.length - 1] : this.exact;
   }
 
-  setTime(time) {
+  setTime(time, values) {
     this.time = time;
+    if (values[this.name]) this.exact = [time, ...this.columns.map((n) => values[this.name][n] ?? NaN)];
     this.moved = true;
   }
 
   redraw() {
-    if (!(this.changed || this.moved) || this.element.hidden || !this.rows.length) return;
+    if (!(this.changed || this.moved) || this.element.hidden || (!this.rows.length && !this.graph)) return;
     this._drawValues();
     if (this.changed) this._drawGraph();
     this.changed = this.moved = false;
@@ -110,9 +105,9 @@ class Plot {
   }
 
   _drawValues() {
-    const row = this.row();
+    const row = this.row() || [];
     this.values.innerHTML = this.labels.map((label, n) =>
-      `<span><i style="background:${PLOT_COLOURS[n % PLOT_COLOURS.length]}"></i>${escaped(short(label))} ${figures(row[n + 1])}</span>`).join("");
+      `<span><i style="background:${PLOT_COLOURS[n % PLOT_COLOURS.length]}"></i>${escaped(short(label))} ${figures(row.length ? row[n + 1] : NaN)}</span>`).join("");
   }
 
   _drawGraph() {
@@ -124,7 +119,7 @@ class Plot {
         drawCallback: () => this._place(),
       });
     } else {
-      this.graph.updateOptions({ file: this.rows });
+      this.graph.updateOptions({ file: this.rows.length ? this.rows : [[0, ...this.labels.map(() => NaN)]] });  // it takes no empty one
     }
   }
 
@@ -171,7 +166,7 @@ class Plots {
     plot.signature = packet.columns.join();
     // torques, and what is beyond the first few, are there to be asked for
     plot.element.hidden = unit === "N m" || [...this.all.values()].filter((each) => !each.element.hidden).length >= SHOWN_AT_FIRST;
-    plot.time = this.time === undefined ? null : this.time;
+    if (this.time !== undefined) plot.setTime(this.time, this.values);
     this.all.set(key, plot);
     const label = document.createElement("label"), box = document.createElement("input");
     box.type = "checkbox";
@@ -211,9 +206,10 @@ class Plots {
     this.choice.hidden = true;
   }
 
-  setTime(time) {
+  setTime(time, values) {
     this.time = time;
-    for (const plot of this.all.values()) plot.setTime(time);
+    this.values = values;
+    for (const plot of this.all.values()) plot.setTime(time, values);
   }
 
   redraw() { for (const plot of this.all.values()) plot.redraw(); }

@@ -253,6 +253,16 @@ class View {
     this.redraw();
   }
 
+  /** Where things were, and the water: of another tank. */
+  forget() {
+    this.poses = null;
+    this.tank.position.set(0, 0, 0);
+    this.tank.quaternion.set(0, 0, 0, 1);
+    for (const [body, group] of this.drawn) group.visible = !body;
+    this.typical = 0;
+    this.hideWater();
+  }
+
   /** What is drawn again and again, beside the rest. */
   drawLines(packet) {
     for (const object of this.lines || []) this._remove(object);
