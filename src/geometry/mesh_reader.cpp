@@ -222,15 +222,15 @@ class MeshBytes {
 };
 
 /// Damaged files make assimp crash, loop and take memory without end: it reads in a process of its own, which may take what a sound file
-/// of that size takes a few times over.
+/// of that size takes a few times over, and so much in any case that another file which it names, as glTF does, has room.
 TriangleMesh import_in_child(const std::string& path, const Names& wanted_parts) {
   constexpr double mebibyte = 1 << 20;
   constexpr std::uint64_t most_memory = std::uint64_t(3) << 30;
   const auto size = static_cast<double>(std::filesystem::file_size(path));
   ChildLimits limits;
-  limits.memory = std::min(most_memory, static_cast<std::uint64_t>(192 * mebibyte + 200 * size));
-  limits.processor_seconds = 1 + 2 * size / mebibyte;
-  limits.seconds = 12 + 10 * size / mebibyte;  // the machine may be busy
+  limits.memory = std::min(most_memory, static_cast<std::uint64_t>(1024 * mebibyte + 200 * size));
+  limits.processor_seconds = 15 + 2 * size / mebibyte;
+  limits.seconds = std::min(60 + 10 * size / mebibyte, 900.0);  // the machine may be busy
   const ChildResult result = run_in_child([&] { return bytes_of(import_file(path, wanted_parts)); }, limits);
   const std::string file = "mesh file '" + path + "' ",
                     advice = "; it is damaged, or too much for the library that reads it: export it again, best as a binary STL";
