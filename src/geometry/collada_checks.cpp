@@ -286,14 +286,28 @@ class ColladaCheck {
 
 bool is_collada(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".dae";
+  const auto small = [](std::string& text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  };
+  small(extension);
+  if (extension == ".dae" || extension == ".zae") return true;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4096, ' ');  // assimp looks less far
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.erase(std::remove(head.begin(), head.end(), '\0'), head.end());  // of UTF-16, which assimp takes too
+  small(head);
+  return head.find("<collada") != std::string::npos;
 }
 
 void check_collada(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw Error("mesh file '" + path + "' cannot be read");
+  const std::string unreadable = "mesh file '" + path + "' cannot be read";
+  if (!file) throw Error(unreadable);
+  if (text.compare(0, 2, "PK") == 0)
+    throw Error(unreadable + ": it is a compressed Collada file; unpack it and give the .dae that is in it");
+  if (text.compare(0, 2, "\xff\xfe") == 0 || text.compare(0, 2, "\xfe\xff") == 0 || text.find('\0') != std::string::npos)
+    throw Error(unreadable + ": its characters are not of one byte each (UTF-16, say); save it as UTF-8");
   ColladaCheck(path, text).check();
 }
 

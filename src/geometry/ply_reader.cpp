@@ -339,7 +339,11 @@ class PlyReader {
 bool is_ply(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".ply";
+  if (extension == ".ply") return true;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4, ' ');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == "ply\n" || head == "ply\r";
 }
 
 TriangleMesh read_ply(const std::string& path) {

@@ -125,6 +125,25 @@ TEST_F(MeshReader, TakesAColladaNodeOfTheNameOfOneThatItHolds) {
   EXPECT_ERROR(read(source(write("ring.dae", square_collada("", ring)))), "holds itself");
 }
 
+TEST_F(MeshReader, KnowsColladaAndPlyByTheirContent) {
+  const std::string sound = square_collada("", R"(<node><instance_geometry url="#g"/></node>)");
+  std::string damaged = sound;
+  damaged.replace(damaged.find("<p>0 1"), 6, "<p>0 .0");
+  for (const char* name : {"box.xml", "box", "box.mesh.bin"}) {
+    EXPECT_NEAR(surface_area(read(source(write(name, sound)))), 2, 1e-6) << name;
+    EXPECT_ERROR(read(source(write(name, damaged))), "where a whole number from 0 on must stand");
+  }
+  std::string wide = "\xff\xfe";
+  for (const char c : sound) wide += {c, '\0'};
+  for (const char* name : {"wide.dae", "wide"}) EXPECT_ERROR(read(source(write(name, wide))), "save it as UTF-8");
+  EXPECT_ERROR(read(source(write("box.zae", std::string("PK\3\4") + sound))), "give the .dae that is in it");
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face 1\n"
+      "property list uchar uchar vertex_indices\nend_header\n" +
+      std::string("\n\0\0\0\0\0\0\2\0\3\0\1\2", 13);  // whose first byte is a line feed, which assimp skips
+  EXPECT_NEAR(surface_area(read(source(write("first_byte", ply)))), 10, 1e-9);
+}
+
 TEST_F(MeshReader, TakesAColladaController) {
   const std::string
       skin = R"(<library_controllers><controller id="k"><skin source="#g"><source id="j"><Name_array id="ja" count="1">bone</Name_array>
