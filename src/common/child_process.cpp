@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <optional>
 
 #include "wavetank/common/error.h"
 
@@ -45,7 +46,9 @@ void lower_limit(__rlimit_resource resource, rlim_t wanted) {
 }
 
 void tell(int pipe_end, char first, const std::string& bytes) {
+  const std::uint64_t length = bytes.size();
   std::string text(1, first);
+  text.append(reinterpret_cast<const char*>(&length), sizeof length);
   text += bytes;
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t written = write(pipe_end, text.data() + at, text.size() - at);
@@ -109,15 +112,20 @@ bool hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
   }
 }
 
-ChildResult result_of(int status, const std::string& said) {
+/// `status`: none where it is not known how it ended, as where the process that began this one has SIGCHLD ignored.
+ChildResult result_of(std::optional<int> status, const std::string& said) {
   using End = ChildResult::End;
-  if (WIFSIGNALED(status)) {
-    const int number = WTERMSIG(status);
+  if (status && WIFSIGNALED(*status)) {
+    const int number = WTERMSIG(*status);
     if (number == SIGPROF || number == SIGKILL || number == SIGXCPU) return {End::out_of_time, ""};
     return {End::crashed, strsignal(number)};
   }
-  if (said.empty()) return {End::crashed, "exit without a word"};
-  const std::string rest = said.substr(1);
+  constexpr std::size_t head = 1 + sizeof(std::uint64_t);
+  std::uint64_t length = 0;
+  if (said.size() >= head) std::memcpy(&length, said.data() + 1, sizeof length);
+  if (said.size() < head || said.size() - head != length)  // however it ended, a message that is whole is what it had to say
+    return {End::crashed, said.empty() ? "exit without a word" : "exit in the middle of its words"};
+  const std::string rest = said.substr(head);
   if (said[0] == did_it) return {End::done, rest};
   return said[0] == had_no_memory ? ChildResult{End::out_of_memory, ""} : ChildResult{End::refused, rest};
 }
@@ -143,8 +151,11 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   if (!hear(ends[0], end, said)) kill(child, SIGKILL);
   close(ends[0]);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return result_of(status, said);
+  pid_t ended;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  return result_of(ended == child ? std::optional<int>(status) : std::nullopt, said);
 }
 
 }  // namespace wavetank

@@ -182,18 +182,19 @@ class MeshBytes {
  public:
   explicit MeshBytes(const std::string& bytes) : bytes_(bytes) {}
 
-  /// None of what is no mesh.
+  /// None of what is no mesh, the whole mesh, and nothing but the mesh.
   std::optional<TriangleMesh> mesh() {
     TriangleMesh mesh;
     take_all(mesh.vertices);
     take_all(mesh.triangles);
-    mesh.parts.resize(count());
+    mesh.parts.resize(count(2 * sizeof(std::uint64_t)));
     for (MeshPart& part : mesh.parts) {
       std::vector<char> name;
       take_all(name);
       part.name.assign(name.begin(), name.end());
       take_all(part.triangles);
     }
+    if (!is_whole_ || at_ != bytes_.size()) return std::nullopt;
     const int vertices = static_cast<int>(mesh.vertices.size());
     for (const Vector3i& triangle : mesh.triangles)
       if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices) return std::nullopt;
@@ -204,9 +205,15 @@ class MeshBytes {
   /// Bounded by what there is: a reader that writes over its own memory may say anything.
   std::uint64_t count(std::size_t size = 1) {
     std::uint64_t value = 0;
-    if (bytes_.size() - at_ >= sizeof value) std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ = std::min(at_ + sizeof value, bytes_.size());
-    return std::min<std::uint64_t>(value, (bytes_.size() - at_) / size);
+    if (bytes_.size() - at_ < sizeof value) {
+      is_whole_ = false;
+      return 0;
+    }
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    if (value <= (bytes_.size() - at_) / size) return value;
+    is_whole_ = false;
+    return 0;
   }
 
   template <class Value>
@@ -219,6 +226,7 @@ class MeshBytes {
 
   const std::string& bytes_;
   std::size_t at_ = 0;
+  bool is_whole_ = true;
 };
 
 /// Damaged files make assimp crash, loop and take memory without end: it reads in a process of its own, which may take what a sound file

@@ -77,6 +77,17 @@ TEST(ChildProcess, LeavesNoProcessBehind) {
   EXPECT_EQ(errno, ECHILD);
 }
 
+TEST(ChildProcess, IsHeardWhereNobodyIsToldOfChildren) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);  // as a process that is started so has it: the system forgets children at once
+  const ChildResult sound = in_child([] { return std::string("done"); }), silent = in_child([]() -> std::string { _exit(0); });
+  const ChildResult dead = in_child([]() -> std::string { std::abort(); });
+  std::signal(SIGCHLD, before);
+  EXPECT_EQ(sound.end, End::done);
+  EXPECT_EQ(sound.bytes, "done");
+  EXPECT_EQ(silent.end, End::crashed);
+  EXPECT_EQ(dead.end, End::crashed);
+}
+
 double processor_seconds() {
   double seconds = 0;
   for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
