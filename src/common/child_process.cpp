@@ -18,6 +18,7 @@
 #include <new>
 #include <optional>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -95,30 +96,40 @@ void settle_in(pid_t parent, const ChildLimits& limits) {
   _exit(0);  // without what others have asked to be done at the end of this process
 }
 
-/// All that the child says; false where its time is up before it has ended.
-bool hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
+/// Why nobody listens to a child any more.
+enum class Hearing { to_its_end, out_of_time, interrupted };
+
+/// All that the child says.
+Hearing hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
+  constexpr long long lap = 100;  // ms, in which a request to end is heard
   char block[65536];
   while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - ChildClock::now()).count();
-    if (left <= 0) return false;
+    if (EndingSignals::heard()) return Hearing::interrupted;
+    const long long left = std::chrono::duration_cast<std::chrono::milliseconds>(end - ChildClock::now()).count();
+    if (left <= 0) return Hearing::out_of_time;
     pollfd awaited{pipe_end, POLLIN, 0};
-    const int ready = poll(&awaited, 1, static_cast<int>(std::min<long long>(left, 1000000)));
-    if (ready < 0 && errno != EINTR) return false;
-    if (ready <= 0) continue;
+    if (poll(&awaited, 1, static_cast<int>(std::min(left, lap))) <= 0) continue;
     const ssize_t length = read(pipe_end, block, sizeof block);
     if (length < 0 && errno == EINTR) continue;
-    if (length <= 0) return true;
+    if (length <= 0) return Hearing::to_its_end;
     bytes.append(block, static_cast<std::size_t>(length));
   }
 }
 
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g s", seconds);
+  return text;
+}
+
 /// `status`: none where it is not known how it ended, as where the process that began this one has SIGCHLD ignored.
-ChildResult result_of(std::optional<int> status, const std::string& said) {
+ChildResult result_of(std::optional<int> status, const std::string& said, const ChildLimits& limits) {
   using End = ChildResult::End;
   if (status && WIFSIGNALED(*status)) {
     const int number = WTERMSIG(*status);
-    if (number == SIGPROF || number == SIGKILL || number == SIGXCPU) return {End::out_of_time, ""};
-    return {End::crashed, strsignal(number)};
+    if (number == SIGPROF) return {End::out_of_time, seconds_text(limits.processor_seconds) + " of processor time"};
+    if (number == SIGXCPU) return {End::out_of_time, "processor time that this process was started with (ulimit -t)"};
+    return {End::crashed, number == SIGKILL ? "killed from outside, as a system does that runs out of memory" : strsignal(number)};
   }
   constexpr std::size_t head = 1 + sizeof(std::uint64_t);
   std::uint64_t length = 0;
@@ -148,14 +159,17 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   }
   std::string said;
   const auto end = ChildClock::now() + std::chrono::duration_cast<ChildClock::duration>(std::chrono::duration<double>(limits.seconds));
-  if (!hear(ends[0], end, said)) kill(child, SIGKILL);
+  const Hearing hearing = hear(ends[0], end, said);
+  if (hearing != Hearing::to_its_end) kill(child, SIGKILL);
   close(ends[0]);
   int status = 0;
   pid_t ended;
   do {
     ended = waitpid(child, &status, 0);
   } while (ended < 0 && errno == EINTR);
-  return result_of(ended == child ? std::optional<int>(status) : std::nullopt, said);
+  if (hearing == Hearing::interrupted) return {ChildResult::End::interrupted, ""};
+  if (hearing == Hearing::out_of_time) return {ChildResult::End::out_of_time, seconds_text(limits.seconds)};
+  return result_of(ended == child ? std::optional<int>(status) : std::nullopt, said, limits);
 }
 
 }  // namespace wavetank

@@ -21,6 +21,7 @@
 #include "shape_mesh.h"
 #include "stl_reader.h"
 #include "wavetank/common/child_process.h"
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 #include "wavetank/geometry/mesh.h"
 #include "wavetank/scene/file_path.h"
@@ -252,7 +253,9 @@ TriangleMesh import_in_child(const std::string& path, const Names& wanted_parts)
       throw Error(file + "takes more than the " + std::to_string(limits.memory >> 20) + " MiB of memory that a mesh of its size may" +
                   advice);
     case ChildResult::End::out_of_time:
-      throw Error(file + "takes longer to read than the " + describe(limits.processor_seconds) + " s that a mesh of its size may" + advice);
+      throw Error(file + "takes longer to read than the " + result.bytes + " that a mesh of its size may" + advice);
+    case ChildResult::End::interrupted:
+      throw EndRequested(file + "was not read to its end: the program was asked to end");
     case ChildResult::End::crashed:
       break;
   }

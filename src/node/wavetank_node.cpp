@@ -63,6 +63,9 @@ int main(int argc, char** argv) {
     while (ros::ok() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
     spinner.stop();
     return node.finish();
+  } catch (const wavetank::EndRequested& left) {
+    ROS_INFO("%s", wavetank::visible_lines(left.what()).c_str());
+    return 0;
   } catch (const std::exception& error) {
     ROS_FATAL("%s", wavetank::visible_lines(error.what()).c_str());
     return 2;

@@ -361,6 +361,8 @@ std::string fault_of_end(const ChildResult& result) {
       return "it took longer than 20 s";
     case ChildResult::End::refused:
       return "it was refused by no Error: " + result.bytes;
+    case ChildResult::End::interrupted:
+      return "it was interrupted";
     case ChildResult::End::done:
       break;
   }
