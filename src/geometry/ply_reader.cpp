@@ -242,7 +242,11 @@ class PlyReader {
            " at most are allowed");
     std::vector<Vector3d> corners;
     for (const int index : indices) corners.push_back(mesh_.vertices[index]);
-    for (const Vector3i& t : triangulate(corners)) mesh_.triangles.emplace_back(indices[t[0]], indices[t[1]], indices[t[2]]);
+    const std::vector<Vector3i> triangles = triangulate(corners, &comparisons_);
+    if (comparisons_ == 0)
+      fail("the faces up to face " + std::to_string(which) +
+           " have too many corners to be cut into triangles in time; save it as triangles");
+    for (const Vector3i& t : triangles) mesh_.triangles.emplace_back(indices[t[0]], indices[t[1]], indices[t[2]]);
   }
 
   /// −1 begins a new strip; every other triangle of one is turned.
@@ -330,6 +334,7 @@ class PlyReader {
   Form form_ = Form::none;
   std::vector<PlyElement> elements_;
   bool has_vertices_ = false, has_faces_ = false;
+  std::uint64_t comparisons_ = most_comparisons;  ///< that are left
   std::istringstream number_;
   TriangleMesh mesh_;
 };
