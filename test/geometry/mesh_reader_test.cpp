@@ -334,6 +334,21 @@ TEST_F(MeshReader, ReadsEveryDialectOfPly) {
     EXPECT_GT((two.corner(t, 1) - two.corner(t, 0)).cross(two.corner(t, 2) - two.corner(t, 0)).z(), 0) << t;
 }
 
+TEST_F(MeshReader, TakesPlyFacesBeforeVerticesAndMixedLineEnds) {
+  const std::string faces = "element face 1\nproperty list uchar uchar vertex_indices\n",
+                    vertices = "element vertex 4\nproperty uchar x\nproperty uchar y\nproperty uchar z\n", body = "4 0 1 2 3\n",
+                    corners = "0 0 0\n2 0 0\n2 1 0\n0 1 0\n";
+  EXPECT_NEAR(
+      surface_area(read(source(write("early.ply", "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n" + body + corners)))), 2,
+      1e-12);
+  EXPECT_ERROR(read(source(write("early.ply", "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n4 0 1 2 4\n" + corners))),
+               "names vertex 4, which does not exist: there are 4");
+  const std::string data("\0\0\0\2\0\0\2\1\0\0\1\0\4\0\1\2\3", 17);
+  EXPECT_NEAR(surface_area(read(
+                  source(write("mixed.ply", "ply\nformat binary_little_endian 1.0\r\n" + vertices + faces + "end_header\r\n" + data)))),
+              2, 1e-12);
+}
+
 TEST_F(MeshReader, RefusesPlyTextsInPlainWords) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n", places = "0 0 0\n1 0 0\n0 1 0\n";
