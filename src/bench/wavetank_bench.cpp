@@ -8,6 +8,7 @@
 #include "own_command.h"
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/standard_output.h"
 #include "wavetank/common/whole_file.h"
 
 namespace {
@@ -44,21 +45,25 @@ int run(const BenchOptions& options, int argc) {
   const Report report = BenchRun(options, device, command, [] { return caught_signal != 0; }).run(cases);
   std::printf("%s", table_of(report).c_str());
   if (!options.json.empty()) write_whole(options.json, json_of(report), "the report");
+  finish_printing();
   return report.interrupted ? exit_signal + caught_signal : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_writing_fail();
   try {
     set_log_sink(log_warnings);
     const BenchOptions options = read_bench_options(argc, argv);
     switch (options.action) {
       case BenchOptions::Action::list:
         list(options);
+        finish_printing();
         return 0;
       case BenchOptions::Action::start_up:
         print_start_up(options);
+        finish_printing();
         return 0;
       case BenchOptions::Action::run:
         return run(options, argc);

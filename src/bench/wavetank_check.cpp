@@ -6,6 +6,7 @@
 #include "check/check.h"
 #include "check/check_options.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/standard_output.h"
 #include "wavetank/common/whole_file.h"
 
 namespace {
@@ -28,12 +29,14 @@ int run(const CheckOptions& options) {
     if (!options.json.empty()) write_whole(options.json, json_of(so_far), "the report");
   });
   std::printf("%s", table_of(report).c_str());
+  finish_printing();
   return report.ok() ? 0 : exit_failed;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_writing_fail();
   try {
     set_log_sink(log_warnings);
     const CheckOptions options = read_check_options(argc, argv);

@@ -16,7 +16,9 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <optional>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -45,7 +47,9 @@ void lower_limit(__rlimit_resource resource, rlim_t wanted) {
 }
 
 void tell(int pipe_end, char first, const std::string& bytes) {
+  const std::uint64_t length = bytes.size();
   std::string text(1, first);
+  text.append(reinterpret_cast<const char*>(&length), sizeof length);
   text += bytes;
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t written = write(pipe_end, text.data() + at, text.size() - at);
@@ -92,32 +96,47 @@ void settle_in(pid_t parent, const ChildLimits& limits) {
   _exit(0);  // without what others have asked to be done at the end of this process
 }
 
-/// All that the child says; false where its time is up before it has ended.
-bool hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
+/// Why nobody listens to a child any more.
+enum class Hearing { to_its_end, out_of_time, interrupted };
+
+/// All that the child says.
+Hearing hear(int pipe_end, ChildClock::time_point end, std::string& bytes) {
+  constexpr long long lap = 100;  // ms, in which a request to end is heard
   char block[65536];
   while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - ChildClock::now()).count();
-    if (left <= 0) return false;
+    if (EndingSignals::heard()) return Hearing::interrupted;
+    const long long left = std::chrono::duration_cast<std::chrono::milliseconds>(end - ChildClock::now()).count();
+    if (left <= 0) return Hearing::out_of_time;
     pollfd awaited{pipe_end, POLLIN, 0};
-    const int ready = poll(&awaited, 1, static_cast<int>(std::min<long long>(left, 1000000)));
-    if (ready < 0 && errno != EINTR) return false;
-    if (ready <= 0) continue;
+    if (poll(&awaited, 1, static_cast<int>(std::min(left, lap))) <= 0) continue;
     const ssize_t length = read(pipe_end, block, sizeof block);
     if (length < 0 && errno == EINTR) continue;
-    if (length <= 0) return true;
+    if (length <= 0) return Hearing::to_its_end;
     bytes.append(block, static_cast<std::size_t>(length));
   }
 }
 
-ChildResult result_of(int status, const std::string& said) {
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g s", seconds);
+  return text;
+}
+
+/// `status`: none where it is not known how it ended, as where the process that began this one has SIGCHLD ignored.
+ChildResult result_of(std::optional<int> status, const std::string& said, const ChildLimits& limits) {
   using End = ChildResult::End;
-  if (WIFSIGNALED(status)) {
-    const int number = WTERMSIG(status);
-    if (number == SIGPROF || number == SIGKILL || number == SIGXCPU) return {End::out_of_time, ""};
-    return {End::crashed, strsignal(number)};
+  if (status && WIFSIGNALED(*status)) {
+    const int number = WTERMSIG(*status);
+    if (number == SIGPROF) return {End::out_of_time, seconds_text(limits.processor_seconds) + " of processor time"};
+    if (number == SIGXCPU) return {End::out_of_time, "processor time that this process was started with (ulimit -t)"};
+    return {End::crashed, number == SIGKILL ? "killed from outside, as a system does that runs out of memory" : strsignal(number)};
   }
-  if (said.empty()) return {End::crashed, "exit without a word"};
-  const std::string rest = said.substr(1);
+  constexpr std::size_t head = 1 + sizeof(std::uint64_t);
+  std::uint64_t length = 0;
+  if (said.size() >= head) std::memcpy(&length, said.data() + 1, sizeof length);
+  if (said.size() < head || said.size() - head != length)  // however it ended, a message that is whole is what it had to say
+    return {End::crashed, said.empty() ? "exit without a word" : "exit in the middle of its words"};
+  const std::string rest = said.substr(head);
   if (said[0] == did_it) return {End::done, rest};
   return said[0] == had_no_memory ? ChildResult{End::out_of_memory, ""} : ChildResult{End::refused, rest};
 }
@@ -140,11 +159,17 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   }
   std::string said;
   const auto end = ChildClock::now() + std::chrono::duration_cast<ChildClock::duration>(std::chrono::duration<double>(limits.seconds));
-  if (!hear(ends[0], end, said)) kill(child, SIGKILL);
+  const Hearing hearing = hear(ends[0], end, said);
+  if (hearing != Hearing::to_its_end) kill(child, SIGKILL);
   close(ends[0]);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return result_of(status, said);
+  pid_t ended;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  if (hearing == Hearing::interrupted) return {ChildResult::End::interrupted, ""};
+  if (hearing == Hearing::out_of_time) return {ChildResult::End::out_of_time, seconds_text(limits.seconds)};
+  return result_of(ended == child ? std::optional<int>(status) : std::nullopt, said, limits);
 }
 
 }  // namespace wavetank

@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace wavetank {
+namespace {
+
+std::atomic<bool> was_heard{false};
+
+}  // namespace
 
 EndingSignals::EndingSignals(std::function<void(int)> on_first) : on_first_(std::move(on_first)) {
   sigemptyset(&awaited_);
@@ -22,7 +27,10 @@ EndingSignals::~EndingSignals() {
   pthread_kill(thread_.native_handle(), SIGTERM);  // to that thread alone: it wakes up and finds that it is over
   thread_.join();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  was_heard = false;
 }
+
+bool EndingSignals::heard() { return was_heard; }
 
 void EndingSignals::wait() {
   bool is_first = true;
@@ -30,6 +38,7 @@ void EndingSignals::wait() {
     int number = 0;
     if (sigwait(&awaited_, &number) != 0) continue;
     if (is_over_) return;
+    was_heard = true;
     if (is_first) on_first_(number);
     if (!is_first && number == SIGINT) {
       std::signal(number, SIG_DFL);

@@ -23,6 +23,12 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   if (length == 0 || at + length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k)
     if ((static_cast<unsigned char>(text[at + k]) & 0xc0) != 0x80) return 0;
+  if (length >= 3) {  // neither written longer than it must be, nor half of a pair of UTF-16, nor beyond the last character
+    const auto second = static_cast<unsigned char>(text[at + 1]);
+    if ((byte == 0xe0 && second < 0xa0) || (byte == 0xed && second >= 0xa0) || (byte == 0xf0 && second < 0x90) ||
+        (byte == 0xf4 && second >= 0x90))
+      return 0;
+  }
   return length;
 }
 

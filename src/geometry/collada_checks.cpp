@@ -8,7 +8,8 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "wavetank/common/error.h"
@@ -131,10 +132,7 @@ class ColladaCheck {
       if (tag->ends) end(*tag);
     }
     for (const Accessor& accessor : accessors_) check_accessor(accessor);
-    for (const auto& [id, held] : held_) {
-      std::set<std::string> way;
-      look_for_itself(id, way);
-    }
+    for (std::size_t node = 0; node < nodes_.size(); ++node) check_depth(node, 0, nodes_[node].line);
   }
 
  private:
@@ -143,19 +141,31 @@ class ColladaCheck {
     std::size_t parameters = 0;
   };
 
+  struct Node {
+    std::string id, name;
+    int line = 1;
+    std::vector<std::size_t> within;                     ///< that are written in it
+    std::vector<std::pair<std::string, int>> instances;  ///< the addresses of others that it holds, and the lines where
+    std::size_t depth = 0;                               ///< in nodes, with what it holds; 0: not known yet
+    bool is_under_way = false;
+  };
+
   void begin(const XmlTag& tag) {
+    if (tag.name == "param" && !accessors_.empty() && !open_.empty() && open_.back().name == "accessor") ++accessors_.back().parameters;
+    if (tag.name == "node") add_node(tag);
     if (!tag.ends) open_.push_back(tag);
     if (open_.size() > deepest) fail(tag.line, "more than " + std::to_string(deepest) + " elements are nested there");
     if (tag.name == "float_array") check_array(tag);
     if (tag.name == "p" || tag.name == "vcount") check_indices(tag);
     if (tag.name == "accessor") accessors_.push_back({tag, 0});
-    if (tag.name == "param" && !accessors_.empty()) ++accessors_.back().parameters;
     if (tag.name == "instance_node") note_instance(tag);
   }
 
   void end(const XmlTag& tag) {
     if (tag.begins) return;  // it was never opened
-    if (!open_.empty() && open_.back().name == tag.name) open_.pop_back();
+    if (open_.empty() || open_.back().name != tag.name) return;
+    open_.pop_back();
+    if (tag.name == "node") open_nodes_.pop_back();
   }
 
   /// The words of an element's text.
@@ -217,29 +227,45 @@ class ColladaCheck {
                          plain_name(source) + "', which has " + std::to_string(static_cast<long long>(array->second)));
   }
 
-  void note_instance(const XmlTag& tag) {
-    const std::string url = tag.attribute("url");
-    if (url.size() < 2) return;
-    for (const XmlTag& holder : open_) {
-      if (holder.name != "node") continue;
-      for (const char* key : {"id", "name"})
-        if (!holder.attribute(key).empty()) held_[holder.attribute(key)].push_back({url.substr(1), tag.line});
-    }
+  void add_node(const XmlTag& tag) {
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({tag.attribute("id"), tag.attribute("name"), tag.line, {}, {}});
+    if (!open_nodes_.empty()) nodes_[open_nodes_.back()].within.push_back(node);
+    if (!tag.ends) open_nodes_.push_back(node);
+    // an address means an id; assimp looks for it among the nodes of the library first, and takes a name where no node has that id
+    const bool is_of_library = !open_.empty() && open_.back().name == "library_nodes";
+    if (is_of_library)
+      by_id_[nodes_[node].id] = node;
+    else
+      by_id_.emplace(nodes_[node].id, node);
+    by_name_.emplace(nodes_[node].name, node);
   }
 
-  void look_for_itself(const std::string& id, std::set<std::string>& way) {
-    if (sound_.count(id) != 0) return;
-    way.insert(id);
-    if (way.size() > deepest)
-      fail(held_.at(*way.begin()).front().second, "nodes hold each other more than " + std::to_string(deepest) + " deep");
-    const auto found = held_.find(id);
-    if (found != held_.end())
-      for (const auto& [held, line] : found->second) {
-        if (way.count(held) != 0) fail(line, "node '" + plain_name(held) + "' holds itself");
-        look_for_itself(held, way);
-      }
-    way.erase(id);
-    sound_.insert(id);
+  void note_instance(const XmlTag& tag) {
+    const std::string url = tag.attribute("url");
+    if (url.size() >= 2 && !open_nodes_.empty()) nodes_[open_nodes_.back()].instances.emplace_back(url.substr(1), tag.line);
+  }
+
+  std::optional<std::size_t> node_at(const std::string& address) const {
+    for (const auto* names : {&by_id_, &by_name_})
+      if (const auto found = names->find(address); found != names->end()) return found->second;
+    return std::nullopt;
+  }
+
+  /// How many nodes deep this one is. `above`: how many hold it by now, the last in this line.
+  std::size_t check_depth(std::size_t which, std::size_t above, int line) {
+    Node& node = nodes_[which];
+    if (node.is_under_way) fail(line, "node '" + plain_name(node.id.empty() ? node.name : node.id) + "' holds itself");
+    if (above + std::max<std::size_t>(node.depth, 1) > deepest)
+      fail(line, "nodes hold each other more than " + std::to_string(deepest) + " deep");
+    if (node.depth > 0) return node.depth;
+    node.is_under_way = true;
+    std::size_t below = 0;
+    for (const std::size_t held : node.within) below = std::max(below, check_depth(held, above + 1, nodes_[held].line));
+    for (const auto& [address, where] : node.instances)
+      if (const std::optional<std::size_t> held = node_at(address)) below = std::max(below, check_depth(*held, above + 1, where));
+    node.is_under_way = false;
+    return node.depth = below + 1;
   }
 
   [[noreturn]] void fail(int line, const std::string& why) const {
@@ -251,22 +277,37 @@ class ColladaCheck {
   std::vector<XmlTag> open_;
   std::map<std::string, double> arrays_;  ///< how many numbers each has
   std::vector<Accessor> accessors_;
-  std::map<std::string, std::vector<std::pair<std::string, int>>> held_;  ///< nodes that a node has instances of, and where
-  std::set<std::string> sound_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> open_nodes_;
+  std::map<std::string, std::size_t> by_id_, by_name_;
 };
 
 }  // namespace
 
 bool is_collada(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".dae";
+  const auto small = [](std::string& text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  };
+  small(extension);
+  if (extension == ".dae" || extension == ".zae") return true;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4096, ' ');  // assimp looks less far
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.erase(std::remove(head.begin(), head.end(), '\0'), head.end());  // of UTF-16, which assimp takes too
+  small(head);
+  return head.find("<collada") != std::string::npos;
 }
 
 void check_collada(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw Error("mesh file '" + path + "' cannot be read");
+  const std::string unreadable = "mesh file '" + path + "' cannot be read";
+  if (!file) throw Error(unreadable);
+  if (text.compare(0, 2, "PK") == 0)
+    throw Error(unreadable + ": it is a compressed Collada file; unpack it and give the .dae that is in it");
+  if (text.compare(0, 2, "\xff\xfe") == 0 || text.compare(0, 2, "\xfe\xff") == 0 || text.find('\0') != std::string::npos)
+    throw Error(unreadable + ": its characters are not of one byte each (UTF-16, say); save it as UTF-8");
   ColladaCheck(path, text).check();
 }
 

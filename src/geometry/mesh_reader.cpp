@@ -21,6 +21,7 @@
 #include "shape_mesh.h"
 #include "stl_reader.h"
 #include "wavetank/common/child_process.h"
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 #include "wavetank/geometry/mesh.h"
 #include "wavetank/scene/file_path.h"
@@ -182,18 +183,19 @@ class MeshBytes {
  public:
   explicit MeshBytes(const std::string& bytes) : bytes_(bytes) {}
 
-  /// None of what is no mesh.
+  /// None of what is no mesh, the whole mesh, and nothing but the mesh.
   std::optional<TriangleMesh> mesh() {
     TriangleMesh mesh;
     take_all(mesh.vertices);
     take_all(mesh.triangles);
-    mesh.parts.resize(count());
+    mesh.parts.resize(count(2 * sizeof(std::uint64_t)));
     for (MeshPart& part : mesh.parts) {
       std::vector<char> name;
       take_all(name);
       part.name.assign(name.begin(), name.end());
       take_all(part.triangles);
     }
+    if (!is_whole_ || at_ != bytes_.size()) return std::nullopt;
     const int vertices = static_cast<int>(mesh.vertices.size());
     for (const Vector3i& triangle : mesh.triangles)
       if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices) return std::nullopt;
@@ -204,9 +206,15 @@ class MeshBytes {
   /// Bounded by what there is: a reader that writes over its own memory may say anything.
   std::uint64_t count(std::size_t size = 1) {
     std::uint64_t value = 0;
-    if (bytes_.size() - at_ >= sizeof value) std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ = std::min(at_ + sizeof value, bytes_.size());
-    return std::min<std::uint64_t>(value, (bytes_.size() - at_) / size);
+    if (bytes_.size() - at_ < sizeof value) {
+      is_whole_ = false;
+      return 0;
+    }
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    if (value <= (bytes_.size() - at_) / size) return value;
+    is_whole_ = false;
+    return 0;
   }
 
   template <class Value>
@@ -219,18 +227,19 @@ class MeshBytes {
 
   const std::string& bytes_;
   std::size_t at_ = 0;
+  bool is_whole_ = true;
 };
 
 /// Damaged files make assimp crash, loop and take memory without end: it reads in a process of its own, which may take what a sound file
-/// of that size takes a few times over.
+/// of that size takes a few times over, and so much in any case that another file which it names, as glTF does, has room.
 TriangleMesh import_in_child(const std::string& path, const Names& wanted_parts) {
   constexpr double mebibyte = 1 << 20;
   constexpr std::uint64_t most_memory = std::uint64_t(3) << 30;
   const auto size = static_cast<double>(std::filesystem::file_size(path));
   ChildLimits limits;
-  limits.memory = std::min(most_memory, static_cast<std::uint64_t>(192 * mebibyte + 200 * size));
-  limits.processor_seconds = 1 + 2 * size / mebibyte;
-  limits.seconds = 12 + 10 * size / mebibyte;  // the machine may be busy
+  limits.memory = std::min(most_memory, static_cast<std::uint64_t>(1024 * mebibyte + 200 * size));
+  limits.processor_seconds = 15 + 2 * size / mebibyte;
+  limits.seconds = std::min(60 + 10 * size / mebibyte, 900.0);  // the machine may be busy
   const ChildResult result = run_in_child([&] { return bytes_of(import_file(path, wanted_parts)); }, limits);
   const std::string file = "mesh file '" + path + "' ",
                     advice = "; it is damaged, or too much for the library that reads it: export it again, best as a binary STL";
@@ -244,7 +253,9 @@ TriangleMesh import_in_child(const std::string& path, const Names& wanted_parts)
       throw Error(file + "takes more than the " + std::to_string(limits.memory >> 20) + " MiB of memory that a mesh of its size may" +
                   advice);
     case ChildResult::End::out_of_time:
-      throw Error(file + "takes longer to read than the " + describe(limits.processor_seconds) + " s that a mesh of its size may" + advice);
+      throw Error(file + "takes longer to read than the " + result.bytes + " that a mesh of its size may" + advice);
+    case ChildResult::End::interrupted:
+      throw EndRequested(file + "was not read to its end: the program was asked to end");
     case ChildResult::End::crashed:
       break;
   }

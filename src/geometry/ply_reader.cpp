@@ -11,6 +11,8 @@
 #include <iterator>
 #include <locale>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "polygon.h"
 #include "wavetank/common/error.h"
@@ -53,9 +55,12 @@ class PlyReader {
 
   TriangleMesh read() {
     read_header();
+    for (const PlyElement& element : elements_)
+      if (element.name == "vertex") vertex_count_ = element.count;
     for (const PlyElement& element : elements_) read_element(element);
     if (!has_vertices_) fail("it has no element vertex");
     if (!has_faces_) fail("it has no element face with a list vertex_indices");
+    for (const auto& [which, indices] : early_faces_) add_face(indices, which);
     return std::move(mesh_);
   }
 
@@ -70,9 +75,11 @@ class PlyReader {
     const std::size_t end = std::min(bytes_.find_first_of("\r\n", at_), bytes_.size());
     const std::string line = bytes_.substr(at_, std::min<std::size_t>(end - at_, 4096));
     at_ = std::min(end + 1, bytes_.size());
-    // A binary file's first byte may be a line feed: after a carriage return it is the line's only where it was of the first line too.
-    if (end < bytes_.size() && bytes_[end] == '\r' && at_ < bytes_.size() && bytes_[at_] == '\n' && (line_ == 0 || ends_twice_)) {
-      ends_twice_ = true;
+    // What follows the header may begin with a line feed: after a carriage return it is the line's only where others had one too.
+    if (end < bytes_.size() && bytes_[end] == '\n') has_line_feeds_ = true;
+    const bool has_both = end < bytes_.size() && bytes_[end] == '\r' && at_ < bytes_.size() && bytes_[at_] == '\n';
+    if (has_both && (has_line_feeds_ || line.substr(0, 10) != "end_header")) {
+      has_line_feeds_ = true;
       ++at_;
     }
     ++line_;
@@ -205,7 +212,12 @@ class PlyReader {
           continue;
         }
         const std::vector<int> indices = index_list(property, element, f, strips);
-        strips ? add_strips(indices) : add_face(indices, f);
+        if (strips)
+          add_strips(indices);
+        else if (has_vertices_)
+          add_face(indices, f);
+        else
+          early_faces_.emplace_back(f, indices);
       }
   }
 
@@ -218,14 +230,13 @@ class PlyReader {
   }
 
   std::vector<int> index_list(const PlyProperty& property, const PlyElement& element, std::size_t which, bool strips) {
-    if (!has_vertices_) fail("its faces stand before its vertices");
     std::vector<int> indices(list_length(property, element, which));
     for (int& index : indices) {
       const double value = next(*property.kind, element, which);
-      const bool exists = value >= 0 && value == std::floor(value) && value < static_cast<double>(mesh_.vertices.size());
+      const bool exists = value >= 0 && value == std::floor(value) && value < static_cast<double>(vertex_count_);
       if (!exists && !(strips && value == -1))
         fail(described(element, which) + " names vertex " + describe(value) + ", which does not exist: there are " +
-             std::to_string(mesh_.vertices.size()));
+             std::to_string(vertex_count_));
       index = static_cast<int>(value);
     }
     return indices;
@@ -242,7 +253,11 @@ class PlyReader {
            " at most are allowed");
     std::vector<Vector3d> corners;
     for (const int index : indices) corners.push_back(mesh_.vertices[index]);
-    for (const Vector3i& t : triangulate(corners)) mesh_.triangles.emplace_back(indices[t[0]], indices[t[1]], indices[t[2]]);
+    const std::vector<Vector3i> triangles = triangulate(corners, &comparisons_);
+    if (comparisons_ == 0)
+      fail("the faces up to face " + std::to_string(which) +
+           " have too many corners to be cut into triangles in time; save it as triangles");
+    for (const Vector3i& t : triangles) mesh_.triangles.emplace_back(indices[t[0]], indices[t[1]], indices[t[2]]);
   }
 
   /// −1 begins a new strip; every other triangle of one is turned.
@@ -326,10 +341,13 @@ class PlyReader {
   const std::string& bytes_;
   std::size_t at_ = 0;
   int line_ = 0;
-  bool ends_twice_ = false;  ///< lines of the header end with a carriage return and a line feed
+  bool has_line_feeds_ = false;  ///< a line of the header had one
   Form form_ = Form::none;
   std::vector<PlyElement> elements_;
   bool has_vertices_ = false, has_faces_ = false;
+  std::size_t vertex_count_ = 0;
+  std::vector<std::pair<std::size_t, std::vector<int>>> early_faces_;  ///< that stand before the vertices
+  std::uint64_t comparisons_ = most_comparisons;                       ///< that are left
   std::istringstream number_;
   TriangleMesh mesh_;
 };
@@ -339,7 +357,11 @@ class PlyReader {
 bool is_ply(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".ply";
+  if (extension == ".ply") return true;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4, ' ');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == "ply\n" || head == "ply\r";
 }
 
 TriangleMesh read_ply(const std::string& path) {

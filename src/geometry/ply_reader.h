@@ -6,6 +6,7 @@
 
 namespace wavetank {
 
+/// By its extension or how it begins.
 bool is_ply(const std::string& path);
 
 /// The vertices and triangles of a PLY, as text or binary, its numbers in either order of bytes: of `vertex` x, y and z, of `face`

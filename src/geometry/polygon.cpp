@@ -60,29 +60,39 @@ Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset
   return part;
 }
 
-std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners) {
+std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners, std::uint64_t* budget) {
   const Vector3d normal = vector_area(corners);  // of a polygon that is not convex too: the parts outside cancel
   std::vector<int> left(corners.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = static_cast<int>(k);
   std::vector<Eigen::Vector3i> triangles;
+  std::uint64_t comparisons = 0;
   const auto is_ear = [&](std::size_t k, double margin) {
     const std::size_t count = left.size();
     const Vector3d &a = corners[left[(k + count - 1) % count]], &b = corners[left[k]], &c = corners[left[(k + 1) % count]];
+    ++comparisons;
     if (normal.dot((b - a).cross(c - b)) <= 0) return false;
-    return std::none_of(left.begin(), left.end(), [&](int other) { return covers(normal, a, b, c, corners[other], margin); });
+    return std::none_of(left.begin(), left.end(), [&](int other) {
+      ++comparisons;
+      return covers(normal, a, b, c, corners[other], margin);
+    });
   };
   while (left.size() > 3) {
     // a corner on the ear's open side would leave a polygon that touches itself there, and triangles that lie on each other
     std::size_t ear = left.size();
     for (const double margin : {1e-6 * normal.squaredNorm(), 0.0})
-      for (std::size_t k = 0; k < left.size() && ear == left.size(); ++k)
+      for (std::size_t k = 0; k < left.size() && ear == left.size(); ++k) {
         if (is_ear(k, margin)) ear = k;
+        if (budget == nullptr || comparisons < *budget) continue;
+        *budget = 0;
+        return {};
+      }
     if (ear == left.size()) ear = 1;  // no ear in a degenerate polygon: what comes of it has no area
     const std::size_t count = left.size();
     triangles.emplace_back(left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   if (left.size() == 3) triangles.emplace_back(left[0], left[1], left[2]);
+  if (budget != nullptr) *budget -= comparisons;
   return triangles;
 }
 

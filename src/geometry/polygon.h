@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,13 @@ Polygon part_below(const Polygon& polygon, const Vector3d& normal, double offset
 /// Of a face of a mesh file: ears are cut off one by one.
 constexpr std::size_t most_corners = 4096;
 
+/// That triangulate() may make for the faces of a mesh file: some ten seconds. A convex face takes the square of its corners.
+constexpr std::uint64_t most_comparisons = 1000000000;
+
 /// Cuts a flat polygon, convex or not, into triangles over its corners by clipping ears; indices into `corners`.
-std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners);
+/// `budget`: how many comparisons it may make, at worst the cube of the corners, which it takes off; where that is not enough it leaves 0
+/// and returns nothing.
+std::vector<Eigen::Vector3i> triangulate(const std::vector<Vector3d>& corners, std::uint64_t* budget = nullptr);
 
 /// "(1.2, 0, 3)", for messages.
 std::string describe(const Vector3d& point);

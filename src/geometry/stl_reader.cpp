@@ -49,13 +49,14 @@ double coordinate_at(const std::string& bytes, std::size_t at) {
 /// How many triangles a binary file says it has.
 std::size_t announced(const std::string& bytes) { return bytes.size() < start_bytes ? 0 : number_at(bytes, header_bytes); }
 
-void add_polygon(std::vector<Vector3d>& corners, TriangleMesh& mesh) {
+/// `comparisons`: that are left; 0 where they are not enough.
+void add_facet(std::vector<Vector3d>& corners, TriangleMesh& mesh, std::uint64_t& comparisons) {
   const int first = static_cast<int>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
   if (corners.size() == 3) {
     mesh.triangles.emplace_back(first, first + 1, first + 2);
   } else {
-    for (const Vector3i& t : triangulate(corners)) mesh.triangles.emplace_back(t + Vector3i::Constant(first));
+    for (const Vector3i& t : triangulate(corners, &comparisons)) mesh.triangles.emplace_back(t + Vector3i::Constant(first));
   }
   corners.clear();
 }
@@ -66,11 +67,12 @@ TriangleMesh read_binary(const std::string& bytes) {
   mesh.vertices.reserve(3 * count);
   mesh.triangles.reserve(count);
   std::vector<Vector3d> corners;
+  std::uint64_t comparisons = most_comparisons;  // of which triangles need none
   for (std::size_t t = 0; t < count; ++t) {
     std::size_t at = start_bytes + t * triangle_bytes + normal_bytes;
     for (int k = 0; k < 3; ++k, at += 12)
       corners.emplace_back(coordinate_at(bytes, at), coordinate_at(bytes, at + 4), coordinate_at(bytes, at + 8));
-    add_polygon(corners, mesh);
+    add_facet(corners, mesh, comparisons);
   }
   return mesh;
 }
@@ -137,7 +139,8 @@ class TextReader {
       if (corners_.size() > most_corners)
         fail("a loop of " + std::to_string(corners_.size()) + " vertices; " + std::to_string(most_corners) + " at most are allowed");
       if (corners_.size() < 3) fail("a loop of " + std::to_string(corners_.size()) + " vertices; a facet has three or more");
-      add_polygon(corners_, mesh_);
+      add_facet(corners_, mesh_, comparisons_);
+      if (comparisons_ == 0) fail("the loops up to here have too many vertices to be cut into triangles in time; save it as triangles");
     } else if (word == "endfacet") {
       if (!corners_.empty()) fail("a facet ends before its loop does");
       within_facet_ = false;
@@ -172,6 +175,7 @@ class TextReader {
   TriangleMesh mesh_;
   std::vector<Vector3d> corners_;
   bool within_facet_ = false;
+  std::uint64_t comparisons_ = most_comparisons;  ///< that are left
 };
 
 }  // namespace

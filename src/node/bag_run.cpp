@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/visible_text.h"
 #include "wavetank/common/whole_file.h"
@@ -55,9 +56,9 @@ BagRun::Outcome BagRun::run() {
     start();
     step_to_the_end();
   } catch (const Interrupted&) {
-    progress_.clear();
-    say("interrupted during the start: nothing was simulated and no bag is written");
-    return Outcome::interrupted;
+    return left_start();
+  } catch (const EndRequested&) {
+    return left_start();
   } catch (const Violation& violation) {
     progress_.clear();
     if (!simulation_) {  // before the start: there is no state to save, and the bag has nothing
@@ -79,6 +80,12 @@ BagRun::Outcome BagRun::run() {
   }
   if (!cut_short_.empty()) throw Error(cut_short_);
   return interrupted_ != 0 ? Outcome::interrupted : Outcome::done;
+}
+
+BagRun::Outcome BagRun::left_start() {
+  progress_.clear();
+  say("interrupted during the start: nothing was simulated and no bag is written");
+  return Outcome::interrupted;
 }
 
 /// While it is caught.

@@ -106,7 +106,8 @@ void BagWriter::keep_what_died() {
   const bool is_written = left >= 0 && flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (!is_written) {
     const std::string kept = free_path(path_, ".active");
-    if (std::rename(active_path_.c_str(), kept.c_str()) == 0)
+    const bool has_nothing = left >= 0 && length_of(left) == 0;  // a process that began at the same time and comes too late made it
+    if (std::rename(active_path_.c_str(), kept.c_str()) == 0 && !(has_nothing && unlink(kept.c_str()) == 0))
       log(LogLevel::warning,
           "a run that died left '" + active_path_ + "': it is kept as '" + kept + "', which rosbag reindex makes readable");
   }

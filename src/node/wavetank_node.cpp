@@ -2,12 +2,12 @@
 #include <ros/ros.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/standard_output.h"
 #include "wavetank/common/version.h"
 #include "wavetank/common/visible_text.h"
 #include "wavetank/node/parameters.h"
@@ -40,6 +40,7 @@ void log_to_ros(wavetank::LogLevel level, const std::string& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wavetank::let_writing_fail();
   const wavetank::EndingSignals signals([](int) {
     is_asked_to_end = true;
     ros::requestShutdown();
@@ -52,8 +53,6 @@ int main(int argc, char** argv) {
     return version || std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0 ? 0 : 2;
   }
   wavetank::set_log_sink(log_to_ros);
-  std::signal(SIGPIPE, SIG_IGN);  // whoever reads what is printed may go
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   if (!ros::master::check()) ROS_WARN("waiting for a ROS master at %s; without one, use wavetank_run", ros::master::getURI().c_str());
   if (is_asked_to_end) return 0;
   ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
@@ -64,6 +63,9 @@ int main(int argc, char** argv) {
     while (ros::ok() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
     spinner.stop();
     return node.finish();
+  } catch (const wavetank::EndRequested& left) {
+    ROS_INFO("%s", wavetank::visible_lines(left.what()).c_str());
+    return 0;
   } catch (const std::exception& error) {
     ROS_FATAL("%s", wavetank::visible_lines(error.what()).c_str());
     return 2;

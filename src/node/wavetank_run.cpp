@@ -1,12 +1,12 @@
 // Simulates a case without a ROS master and writes a bag: everything but the process's own affairs is in BagRun.
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
+#include "wavetank/common/standard_output.h"
 #include "wavetank/common/visible_text.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/node/bag_run.h"
@@ -56,7 +56,6 @@ void print_schedule(const RunOptions& options) {
 
 int run(const RunOptions& options) {
   const EndingSignals signals([](int number) { caught_signal = number; });
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is told as a full disk is
   BagRun bag_run(options, caught_signal);
   switch (bag_run.run()) {
     case BagRun::Outcome::done:
@@ -72,20 +71,23 @@ int run(const RunOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_writing_fail();
   try {
     set_log_sink(log_to_console);
-    std::signal(SIGPIPE, SIG_IGN);  // whoever read what is printed has gone: it goes on without
     const RunOptions options = read_command_line(argc, argv);
     is_quiet = options.quiet;
     switch (options.action) {
       case RunOptions::Action::list_devices:
         list_devices();
+        finish_printing();
         return 0;
       case RunOptions::Action::check:
         check(options);
+        finish_printing();
         return 0;
       case RunOptions::Action::schedule:
         print_schedule(options);
+        finish_printing();
         return 0;
       case RunOptions::Action::run:
         return run(options);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "rigid_world_parts.h"
 #include "wavetank/common/error.h"
@@ -20,17 +19,11 @@ double acceleration_of(const RigidOwner& body, const OutsideWrench& wrench) {
   return wrench.force.norm() / inertia.mass + std::sqrt(std::max(wrench.torque.dot(inverse * wrench.torque), 0.0) / inertia.mass);
 }
 
-/// The same of a force, N, or a torque, N·m, about an axis that is not known: with the mean of the principal moments.
-double acceleration_of(const Inertia& inertia, double effort, bool turns) {
-  const double moment = inertia.own.trace() / (inertia.own(0, 0) == 0 ? 1 : 3);
-  return turns ? effort / std::sqrt(moment * inertia.mass) : effort / inertia.mass;
-}
-
 /// Throws Error beyond what is allowed. `what`: "the force from outside on body 'box'".
-void check_acceleration(const std::string& what, double acceleration) {
-  if (acceleration <= RigidWorld::greatest_acceleration) return;  // which what overflows is not
-  throw Error(what + " alone would accelerate it at " + number_text(acceleration) + " m/s², beyond " +
-              number_text(RigidWorld::greatest_acceleration) + " m/s²: it is ignored, and the one before stays");
+void check_acceleration(const std::string& what, double acceleration, double greatest) {
+  if (acceleration <= greatest) return;  // which what overflows is not
+  throw Error(what + " alone would accelerate it at " + number_text(acceleration) + " m/s², beyond " + number_text(greatest) +
+              " m/s²: it is ignored, and the one before stays");
 }
 
 }  // namespace
@@ -111,7 +104,7 @@ void RigidWorld::set_outside_wrench(std::size_t owner, const OutsideWrench& wren
     throw Error("the force from outside on " + body.what + " is not finite: it is ignored, and the one before stays");
   OutsideWrench felt = wrench;
   if (parts_->dimensions == 2) felt.force.y() = 0;  // nor do torques about x and z count, of which there is no inertia
-  check_acceleration("the force from outside on " + body.what, acceleration_of(body, felt));
+  check_acceleration("the force from outside on " + body.what, acceleration_of(body, felt), greatest_acceleration);
   body.forces->wrench = wrench;
 }
 
@@ -128,14 +121,12 @@ void RigidWorld::command_joint(std::size_t joint, double time, double value) {
     throw Error("joint '" + commanded.name() + "' is not commanded, so that it takes no efforts or velocities");
   if (!std::isfinite(value)) throw Error("what is commanded of joint '" + commanded.name() + "' is not finite");
   const JointCase& given = commanded.given();
-  if (given.command->quantity == JointQuantity::effort) {
-    const double effort = std::min(std::abs(value), given.command->greatest_effort.value_or(std::numeric_limits<double>::infinity()));
-    const bool turns = given.type == JointType::hinge;
+  // within the effort that the case, or the URDF, itself allows, all is meant
+  if (given.command->quantity == JointQuantity::effort && !given.command->greatest_effort) {
     for (const JointEnd* end : {&commanded.child(), &commanded.parent()}) {
       if (end->owner >= static_cast<int>(count()) || !is_free(end->owner)) continue;
-      const RigidOwner& body = parts_->owners[end->owner];
-      check_acceleration("the effort commanded of joint '" + commanded.name() + "' on " + body.what,
-                         acceleration_of(body.inertia, effort, turns));
+      check_acceleration("the effort commanded of joint '" + commanded.name() + "' on " + parts_->owners[end->owner].what,
+                         parts_->acceleration_by(joint, *end, std::abs(value)), greatest_joint_acceleration);
     }
   }
   commanded.command = {value, time, true};

@@ -71,6 +71,37 @@ void RigidWorld::Parts::make_joints(const Case& scene) {
   }
 }
 
+std::vector<std::size_t> RigidWorld::Parts::hanging_on(std::size_t joint, const JointEnd& end) const {
+  std::vector<std::size_t> found{static_cast<std::size_t>(end.owner)};
+  for (std::size_t k = 0; k < found.size(); ++k)
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (j == joint || !joints[j].holds_together()) continue;
+      const auto child = static_cast<std::size_t>(joints[j].child().owner), parent = static_cast<std::size_t>(joints[j].parent().owner);
+      if (child != found[k] && parent != found[k]) continue;
+      const std::size_t other = child == found[k] ? parent : child;
+      const bool is_free = other < owners.size() && owners[other].is_free();
+      if (is_free && std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
+    }
+  return found;
+}
+
+double RigidWorld::Parts::acceleration_by(std::size_t joint, const JointEnd& end, double effort) const {
+  const Joint& hinge = joints[joint];
+  std::vector<RigidState> states = present();
+  states.emplace_back();
+  const RigidState& child = states[hinge.child().frame];
+  const Vector3d point = child.moved(hinge.given().point, hinge.child().reference),
+                 axis = states[hinge.parent().frame].orientation * hinge.given().axis.normalized();
+  double mass = 0, moment = 0;
+  for (const std::size_t o : hanging_on(joint, end)) {
+    const Inertia& inertia = owners[o].inertia;
+    mass += inertia.mass;
+    moment +=
+        axis.dot(inertia.in_world(states[o].orientation) * axis) + inertia.mass * axis.cross(states[o].position - point).squaredNorm();
+  }
+  return hinge.given().type == JointType::hinge ? effort / std::sqrt(moment * mass) : effort / mass;
+}
+
 void RigidWorld::Parts::make_contacts(const Case& scene, const Layout& layout, const ResourceResolver& resolve) {
   double half_width = spacing;
   for (std::size_t o = 1; o < owners.size(); ++o) {

@@ -33,6 +33,10 @@ struct RigidWorld::Parts {
   std::vector<BodyChange> changes(double time, double time_step, const StepStates& states, const std::vector<RigidState>& given,
                                   const std::vector<FreeMotion>& motions) const;
   std::string at_time(double time) const { return " at " + number_text(time) + " s"; }
+  /// The free owners that hang on an end of a joint, itself among them, by other joints.
+  std::vector<std::size_t> hanging_on(std::size_t joint, const JointEnd& end) const;
+  /// What an effort of a hinge (N·m) or a slider (N) alone would make of them, m/s²: about a hinge at their radius of gyration about it.
+  double acceleration_by(std::size_t joint, const JointEnd& end, double effort) const;
   RigidOwner& checked(std::size_t owner, Motion motion, const char* word);
 
   int dimensions;

@@ -275,8 +275,8 @@ void check_initial(const Case& read, const Setting& root) {
           number_text(waves.height) + " m, with which they would break: " + breaking + "; make it less");
 }
 
-// What moves at the start must be slow beside the water's sound: the watchdog's bound of half of it would stop the run before its first
-// step.
+// What moves at the start, relative to the tank, must be slow beside the water's sound: the watchdog's bound of half of it would stop the
+// run before its first step. Where the tank turns or its motion is prescribed, that is left to the watchdog.
 void check_speeds(const Case& read, const Setting& root) {
   if (!read.fluid.sound_speed) return;
   const double most = 0.5 * *read.fluid.sound_speed;
@@ -289,9 +289,14 @@ void check_speeds(const Case& read, const Setting& root) {
               " m/s; make it slower, or choose a fluid/sound_speed of " + number_text(10 * speed) + " m/s, ten times as fast");
   };
   check(read.fluid.current, "fluid/current");
+  const TankCase& tank = read.tank;
+  const bool tank_is_free = tank.motion == Motion::free;
+  const bool tank_is_known = tank.motion != Motion::prescribed && !(tank_is_free && !tank.rigid.angular_velocity.isZero());
+  const Vector3d tank_velocity = tank_is_free ? tank.rigid.velocity : Vector3d::Zero();
   for (std::size_t b = 0; b < read.bodies.size(); ++b) {
     const std::string path = join_path("bodies", b);
-    if (read.bodies[b].motion == Motion::free) check(read.bodies[b].rigid.velocity, join_path(path, "velocity"));
+    if (read.bodies[b].motion == Motion::free && tank_is_known)
+      check(read.bodies[b].rigid.velocity - tank_velocity, join_path(path, "velocity"));
     if (read.bodies[b].motion == Motion::fixed) check(read.bodies[b].surface_velocity, join_path(path, "surface_velocity"));
   }
 }

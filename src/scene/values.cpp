@@ -13,6 +13,7 @@ enum class Reading { number, not_finite, not_a_number };
 
 // Beyond these no length, mass, time or stiffness in SI units makes sense, and single precision, which the device computes in, soon ends.
 constexpr double greatest_number = 1e15, least_above_zero = 1e-20;
+constexpr double least_mass = 1e-35;  // kg or kg·m²: the inertia of a grain of 10 µm is 1e-22
 
 Reading read_number(const Setting& setting, double& number) {
   if (setting.kind != Setting::Kind::scalar) return Reading::not_a_number;
@@ -45,7 +46,8 @@ double finite_number(const Setting& setting, const Item& item, const std::string
 void check_range(double number, const Setting& setting, const Item& item, const Range& range, const std::string& or_word = "") {
   const std::string end = or_word.empty() ? "" : ", " + or_word;
   if (!range.contains(number)) refuse(setting, item, range.describe() + end);
-  if (range.above_least && range.least == 0 && number < least_above_zero) refuse(setting, item, "at least 1e-20" + end);
+  const double least = item.unit == "kg" || item.unit == "kg·m²" ? least_mass : least_above_zero;
+  if (range.above_least && range.least == 0 && number < least) refuse(setting, item, "at least " + number_text(least) + end);
 }
 
 std::string number_demand(const Range& range, const std::string& kind) {

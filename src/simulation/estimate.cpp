@@ -61,8 +61,17 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
     result.start_seconds += seconds_since(packing) / iterations * numerics.packing.iterations;
   }
   parts.report = solver.start();
+  try {
+    parts.check_start();
+  } catch (const Violation&) {  // which packing and settling, as the run does them, may cure: only then is it judged
+    solver.pack(numerics.packing.iterations, unheard);
+    parts.find_films();
+    solver.start();
+    parts.find_films();
+    parts.report = solver.settle(numerics.packing.settling, unheard);
+    parts.check_start();
+  }
   parts.time_step = parts.report.time_step;
-  parts.check_start();
   if (parts.world.anything_moves()) solver.set_wall_motions(parts.coupling.now());
   parts.shorten_step();
   parts.step_on();

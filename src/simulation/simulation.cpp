@@ -303,13 +303,26 @@ void Simulation::set_outside_wrench(std::size_t owner, const OutsideWrench& wren
 
 void Simulation::command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity) {
   Parts& parts = *parts_;
-  const CommandCase& limits = owner == 0 ? parts.scene.tank.rigid.command : parts.scene.bodies.at(owner - 1).rigid.command;
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
-  const double speed = std::min(velocity.norm(), limits.greatest_speed.value_or(unlimited)) +
-                       std::min(angular_velocity.norm(), limits.greatest_angular_speed.value_or(unlimited)) * parts.reaches.at(owner);
-  const bool is_eased = owner == 0 && limits.greatest_acceleration;  // of a tank's own speed the water in it feels nothing
-  parts.check_commanded_speed(owner == 0 ? "the tank" : "body '" + parts.scene.bodies[owner - 1].name + "'", is_eased ? 0 : speed);
+  if (parts.world.count() > owner && velocity.allFinite() && angular_velocity.allFinite())  // or the world says what is wrong
+    parts.check_commanded_speed(owner == 0 ? "the tank" : "body '" + parts.scene.bodies[owner - 1].name + "'",
+                                parts.commanded_speed(owner, velocity, angular_velocity));
   parts.world.command(owner, parts.time, velocity, angular_velocity);
+}
+
+double Simulation::Parts::commanded_speed(std::size_t owner, Vector3d velocity, Vector3d angular_velocity) const {
+  if (scene.dimensions == 2) velocity.y() = angular_velocity.x() = angular_velocity.z() = 0;  // which do not count
+  const CommandCase& limits = owner == 0 ? scene.tank.rigid.command : scene.bodies[owner - 1].rigid.command;
+  const auto limited = [](const Vector3d& wanted, const std::optional<double>& greatest) -> Vector3d {
+    const double length = wanted.stableNorm();
+    return greatest && length > *greatest ? Vector3d(*greatest / length * wanted) : wanted;
+  };
+  const RigidState now = world.state(owner), tank = world.state(0);
+  const Vector3d carried = tank.velocity + tank.angular_velocity.cross(now.position - tank.position);
+  const double going = (now.orientation * limited(velocity, limits.greatest_speed) - carried).stableNorm(),
+               turning = (now.orientation * limited(angular_velocity, limits.greatest_angular_speed) - tank.angular_velocity).stableNorm();
+  // of a tank's own speed the water in it feels nothing, but for a jump, which its limits of acceleration ease
+  const bool goes_gently = owner == 0 && limits.greatest_acceleration, turns_gently = owner == 0 && limits.greatest_angular_acceleration;
+  return (goes_gently ? 0 : going) + (turns_gently ? 0 : turning * reaches[owner]);
 }
 
 void Simulation::Parts::check_commanded_speed(const std::string& whose, double speed) const {

@@ -48,6 +48,9 @@ struct Simulation::Parts {
   void tell_of_speed(double greatest);
   /// What preparing the solver takes when its kernels were compiled before, as they are when the run comes.
   double loading_seconds();
+  /// How fast, m/s, the fastest point of a commanded owner would move relative to the tank, as it moves now; of the tank itself, by how
+  /// much it would jump.
+  double commanded_speed(std::size_t owner, Vector3d velocity, Vector3d angular_velocity) const;
   /// Throws Error for a commanded speed, m/s, that the water's sound cannot follow.
   void check_commanded_speed(const std::string& whose, double speed) const;
   /// Throws Violation for a body too fast to be followed; says once of one that it has left the tank.

@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <thread>
 #include <vector>
 
+#include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 
 namespace wavetank {
@@ -75,6 +77,54 @@ TEST(ChildProcess, LeavesNoProcessBehind) {
   });
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(ChildProcess, IsHeardWhereNobodyIsToldOfChildren) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);  // as a process that is started so has it: the system forgets children at once
+  const ChildResult sound = in_child([] { return std::string("done"); }), silent = in_child([]() -> std::string { _exit(0); });
+  const ChildResult dead = in_child([]() -> std::string { std::abort(); });
+  std::signal(SIGCHLD, before);
+  EXPECT_EQ(sound.end, End::done);
+  EXPECT_EQ(sound.bytes, "done");
+  EXPECT_EQ(silent.end, End::crashed);
+  EXPECT_EQ(dead.end, End::crashed);
+}
+
+TEST(ChildProcess, TellsWhichLimitItMet) {
+  const auto sleeper = []() -> std::string {
+    sleep(100);
+    return "";
+  };
+  EXPECT_EQ(run_in_child(sleeper, {100 * mebibytes, 10, 0.25}).bytes, "0.25 s");
+  const auto loop = []() -> std::string {
+    for (volatile bool on = true; on;) continue;
+    return "";
+  };
+  EXPECT_EQ(run_in_child(loop, {100 * mebibytes, 0.2, 60}).bytes, "0.2 s of processor time");
+  const ChildResult killed = in_child([]() -> std::string {
+    std::raise(SIGKILL);
+    return "";
+  });
+  EXPECT_EQ(killed.end, End::crashed);
+  EXPECT_NE(killed.bytes.find("killed from outside"), std::string::npos) << killed.bytes;
+}
+
+TEST(ChildProcess, IsLeftWhenThisProcessIsAskedToEnd) {
+  const EndingSignals signals([](int) {});
+  std::thread asks([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(getpid(), SIGTERM);
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  const ChildResult result = run_in_child(
+      []() -> std::string {
+        sleep(100);
+        return "";
+      },
+      {100 * mebibytes, 10, 60});
+  asks.join();
+  EXPECT_EQ(result.end, End::interrupted);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 double processor_seconds() {

@@ -20,6 +20,9 @@ TEST(VisibleText, ShowsWhatATerminalWouldObey) {
             "a\\xe2\\x80\\xaeb")
       << "turns the direction of writing";
   EXPECT_EQ(visible_text("\xff\xc3"), "\\xff\\xc3") << "no UTF-8";
+  for (const char* none : {"\xe0\x80\x9b", "\xed\xa0\x80", "\xf0\x80\x80\x9b", "\xf4\x90\x80\x80"})
+    EXPECT_EQ(visible_text(none).substr(0, 2), "\\x") << "longer than it must be, half a pair, or beyond the last character";
+  EXPECT_EQ(visible_text("\xe0\xa4\x85\xed\x9f\xbf\xf0\x9f\x8c\x8a"), "\xe0\xa4\x85\xed\x9f\xbf\xf0\x9f\x8c\x8a");
   EXPECT_EQ(visible_text("Δx = 0.02 m², “plain”"), "Δx = 0.02 m², “plain”");
   EXPECT_EQ(visible_lines("two\n\tlines\x1b"), "two\n\tlines\\x1b");
 }

@@ -15,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include "../../src/simulation/snapshot.h"
 #include "../common/scratch_directory.h"
@@ -62,13 +63,18 @@ std::vector<fs::path> own_files(const std::vector<std::string>& folders, const s
   return files;
 }
 
-/// An input that was made, what reads it, and a word that a refusal must have.
+/// An input that was made, what reads it, and words of which a refusal must have one.
 struct Input {
   std::string file;  ///< its name in the scratch folder; empty: it is no file
   std::string content;
-  std::function<void()> read;
-  std::string word;
+  std::function<void()> read;  ///< throws Error where it is refused, and std::logic_error where it was accepted wrongly
+  std::vector<std::string> words;
 };
+
+/// Of what was accepted: whatever it says, it must be this.
+void demand(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("it was accepted, but ") + what);
+}
 
 /// As `wavetank_run --check` does, but for the device.
 void lay_out_and_look(const Case& read) {
@@ -120,7 +126,14 @@ class Kinds {
  private:
   Input of_case(const std::string& text) const {
     const std::string path = scratch_.file("case.yaml");
-    return {"case.yaml", text, [path] { read_case_file(path, {}, {resolve, {}}); }, "case.yaml"};
+    return {"case.yaml",
+            text,
+            [path] {
+              const std::string written = write_case(read_case_file(path, {}, {resolve, {}}));
+              demand(write_case(read_case_text(written, "the case that was written", {}, {resolve, {}})) == written,
+                     "what is written of it reads otherwise");
+            },
+            {"case.yaml"}};
   }
 
   /// Every key of a small case, with numbers that are replaced: most can be laid out.
@@ -135,7 +148,7 @@ class Kinds {
             [path] {
               lay_out_and_look(read_case_file(path, {}, {resolve, {}}));
             },
-            ""};
+            places_};
   }
 
   Input overrides(Mutation& mutation) const {
@@ -149,23 +162,30 @@ class Kinds {
         value = "[" + value + ", " + mutation.one_of(awkward_numbers()) + ", " + mutation.one_of(awkward_numbers()) + "]";
       given.push_back({key, value});
     }
+    std::vector<std::string> places = places_;
+    for (const Override& each : given) places.push_back(each.key);
     return {"case.yaml", mutation.one_of(small_cases_),
             [path, given] {
               lay_out_and_look(read_case_file(path, given, {resolve, {}}));
             },
-            ""};
+            places};
   }
 
   Input mesh(const std::string& name, const std::string& content) const {
     const std::string path = scratch_.file(name);
-    return {name, content,
+    return {name,
+            content,
             [path] {
               MeshSource source;
               source.uri = path;
               TriangleMesh mesh = read_mesh(source, "", {}, {"left"});
+              for (const Vector3d& vertex : mesh.vertices) demand(vertex.allFinite(), "a vertex is not finite");
+              for (const Vector3i& triangle : mesh.triangles)
+                demand(triangle.minCoeff() >= 0 && triangle.maxCoeff() < static_cast<int>(mesh.vertices.size()),
+                       "a triangle names a vertex that does not exist");
               check_closed(mesh);
             },
-            "m."};
+            {name}};
   }
 
   Input motion(Mutation& mutation) const {
@@ -173,7 +193,8 @@ class Kinds {
     for (int k = 0; k < 20; ++k)
       text += std::to_string(0.05 * k) + "," + std::to_string(0.01 * std::sin(k)) + "," + std::to_string(0.5 * k) + "\n";
     const std::string path = scratch_.file("motion.csv");
-    return {"motion.csv", mutation.text(text),
+    return {"motion.csv",
+            mutation.text(text),
             [path] {
               Case scene;
               scene.dimensions = 2;
@@ -192,7 +213,7 @@ class Kinds {
               scene.bodies = {body};
               lay_out_and_look(scene);
             },
-            "motion.csv"};
+            {"motion.csv"}};
   }
 
   Input robot(Mutation& mutation) const {
@@ -200,7 +221,7 @@ class Kinds {
         "robot.yaml",
         "dimensions: 3\nduration: 1\nfluid: {sound_speed: 20, spacing: 0.1, fill: [{box: {min: [0, 0, 0], max: [1, 1, 0.3]}}]}\n"
         "tank: {box: {size: [1, 1, 1]}}\nrobots: [{urdf: m.urdf, position: [0.5, 0.5, 0.5]}]\n");
-    return {"m.urdf", mutation.text(mutation.one_of(robots_)), [path] { read_case_file(path, {}, {resolve, {}}); }, "m.urdf"};
+    return {"m.urdf", mutation.text(mutation.one_of(robots_)), [path] { read_case_file(path, {}, {resolve, {}}); }, {"m.urdf"}};
   }
 
   Input snapshot(Mutation& mutation) {
@@ -218,7 +239,7 @@ class Kinds {
     std::string bytes = mutation.bytes(snapshot_);
     if (mutation.chance(70)) bytes = with_checksum(bytes);
     const std::string path = scratch_.file("m.snapshot");
-    return {"m.snapshot", bytes, [path] { read_snapshot(path); }, "m.snapshot"};
+    return {"m.snapshot", bytes, [path] { read_snapshot(path); }, {"m.snapshot"}};
   }
 
   /// So that what lies behind the checksum is reached.
@@ -234,7 +255,8 @@ class Kinds {
     static const std::vector<std::string> sound{"0.02*cos(2*pi*x)",       "sin(2*pi*x)*cos(2*pi*z)", "t < 1 ? t : 2",
                                                 "exp(-x^2)+max(x, y, z)", "(1+(2+(3+x)))",           "if(x>0, 1, 0)"};
     const std::string text = mutation.text(mutation.one_of(sound));
-    return {"", text,
+    return {"",
+            text,
             [text] {
               for (const Expression::Of of : {Expression::Of::time, Expression::Of::place, Expression::Of::time_and_place}) {
                 try {
@@ -247,7 +269,7 @@ class Kinds {
                 }
               }
             },
-            "no expression"};
+            {"no expression"}};
   }
 
   // ---- a box in every format
@@ -326,11 +348,14 @@ class Kinds {
   }
 
   const ScratchDirectory& scratch_;
+  /// Where a case is wrong: its file, a key, or a thing by its name.
+  const std::vector<std::string> places_{"case.yaml", "/", "body '", "joint '", "mesh '", "the tank", "gauge", "probe"};
   std::vector<std::string> cases_, small_cases_, whole_cases_, robots_, solids_, keys_;
   std::string snapshot_;
 };
 
 constexpr char accepted[] = "accepted";
+const std::string crashed = "it crashed: ";
 
 /// What becomes of an input, in the process that calls it.
 std::string outcome_of(const Input& input) {
@@ -343,24 +368,27 @@ std::string outcome_of(const Input& input) {
 }
 
 /// What is wrong with what a refused input was refused with; empty = nothing.
-std::string fault_of_sentence(const std::string& said, const std::string& word) {
+std::string fault_of_sentence(const std::string& said, const std::vector<std::string>& words) {
   if (said == accepted) return "";
   if (said.find('\n') != std::string::npos) return "what it was refused with is no single sentence: " + said;
   if (said.size() > 1500) return "what it was refused with is " + std::to_string(said.size()) + " long: " + said;
-  if (said.find(word) == std::string::npos) return "what it was refused with does not say where: " + said;
+  if (std::none_of(words.begin(), words.end(), [&](const std::string& word) { return said.find(word) != std::string::npos; }))
+    return "what it was refused with does not say where: " + said;
   return "";
 }
 
 std::string fault_of_end(const ChildResult& result) {
   switch (result.end) {
     case ChildResult::End::crashed:
-      return "it crashed: " + result.bytes;
+      return crashed + result.bytes;
     case ChildResult::End::out_of_memory:
       return "it took more than 4 GiB";
     case ChildResult::End::out_of_time:
       return "it took longer than 20 s";
     case ChildResult::End::refused:
-      return "it was refused by no Error: " + result.bytes;
+      return "it was refused by no Error, or accepted wrongly: " + result.bytes;
+    case ChildResult::End::interrupted:
+      return "it was interrupted";
     case ChildResult::End::done:
       break;
   }
@@ -402,9 +430,11 @@ class Run {
     constexpr std::uint64_t batch = 50;  // inputs a process: a process costs more than most of them
     const std::uint64_t end = options_.first + options_.count;
     for (std::uint64_t first = options_.first; first < end; first += batch) take(first, std::min(first + batch, end));
-    std::printf("%-12s seeds %llu to %llu: %zu refused, %zu accepted, %d faults; %.1f s, the slowest %.2f s\n", kind_.c_str(),
-                static_cast<unsigned long long>(options_.first), static_cast<unsigned long long>(end - 1), refused_, accepted_, faults_,
-                std::chrono::duration<double>(Clock::now() - begin).count(), slowest_);
+    constexpr std::uint64_t enough = 20;  // damaged inputs, of which some have to be refused
+    if (options_.count >= enough && refused_ == 0) report({0, false, "not one of the damaged ones is refused", 0, ""});
+    std::printf("%-12s seeds %llu to %llu: %zu refused, %zu accepted, %d faults, %d of them crashes; %.1f s, the slowest %.2f s\n",
+                kind_.c_str(), static_cast<unsigned long long>(options_.first), static_cast<unsigned long long>(end - 1), refused_,
+                accepted_, faults_, crashes_, std::chrono::duration<double>(Clock::now() - begin).count(), slowest_);
     std::fflush(stdout);
     return faults_;
   }
@@ -448,8 +478,8 @@ class Run {
     const std::size_t files = count_of_files(scratch_.path());
     const Clock::time_point start = Clock::now();
     const std::string said = take(input);
-    Outcome result{seed, said != accepted, fault_of_sentence(said, input.word), std::chrono::duration<double>(Clock::now() - start).count(),
-                   said};
+    Outcome result{seed, said != accepted, fault_of_sentence(said, input.words),
+                   std::chrono::duration<double>(Clock::now() - start).count(), said};
     if (result.fault.empty() && count_of_files(scratch_.path()) != files) result.fault = "it left a file behind";
     return result;
   }
@@ -488,6 +518,7 @@ class Run {
     if (outcome.fault.empty()) ++(outcome.was_refused ? refused_ : accepted_);
     if (outcome.fault.empty()) return;
     ++faults_;
+    if (outcome.fault.rfind(crashed, 0) == 0) ++crashes_;
     std::printf("%s, seed %llu: %s\n", kind_.c_str(), static_cast<unsigned long long>(outcome.seed),
                 visible_text(outcome.fault, 1000).c_str());
     if (options_.keep.empty() || outcome.seed == 0) return;
@@ -502,9 +533,16 @@ class Run {
   const Options& options_;
   const ScratchDirectory& scratch_;
   std::size_t refused_ = 0, accepted_ = 0;
-  int faults_ = 0;
+  int faults_ = 0, crashes_ = 0;
   double slowest_ = 0;
 };
+
+/// Throws Error for what is no whole number from 1 on.
+std::uint64_t number_of(const std::string& option, const std::string& word) {
+  const bool digits = !word.empty() && word.size() < 16 && word.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || std::stoull(word) == 0) throw Error(option + " is '" + word + "'; it must be a whole number from 1 on");
+  return std::stoull(word);
+}
 
 Options options_of(int argc, char** argv) {
   Options options;
@@ -512,9 +550,9 @@ Options options_of(int argc, char** argv) {
     const std::string word = argv[k];
     const bool has_value = k + 1 < argc;
     if (word == "--count" && has_value)
-      options.count = std::strtoull(argv[++k], nullptr, 10);
+      options.count = number_of(word, argv[++k]);
     else if (word == "--seed" && has_value)
-      options.first = std::strtoull(argv[++k], nullptr, 10);
+      options.first = number_of(word, argv[++k]);
     else if (word == "--say")
       options.says = true;
     else if (word == "--keep" && has_value)
@@ -531,7 +569,13 @@ Options options_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace wavetank;
   set_log_sink([](LogLevel, const std::string&) {});
-  fuzz::Options options = fuzz::options_of(argc, argv);
+  fuzz::Options options;
+  try {
+    options = fuzz::options_of(argc, argv);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "fuzz: %s\n", error.what());
+    return 2;
+  }
   const ScratchDirectory scratch;
   fuzz::Kinds kinds(scratch);
   if (options.kinds.empty()) options.kinds = kinds.names();

@@ -103,6 +103,70 @@ TEST_F(MeshReader, AppliesColladaUnitAndNodesButKeepsItsAxes) {
   }
 }
 
+/// A Collada file of one square of 2 m² as a polylist, with what else stands in it.
+std::string square_collada(const std::string& libraries, const std::string& scene) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit name="m" meter="1"/>
+<up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="12">0 0 0 1 0 0 1 2 0 0 2 0
+</float_array><technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist></mesh></geometry>
+</library_geometries>)" +
+         libraries + R"(<library_visual_scenes><visual_scene id="s">)" + scene +
+         R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshReader, TakesAColladaNodeOfTheNameOfOneThatItHolds) {
+  const std::string wheel = R"(<library_nodes><node id="wheel"><instance_geometry url="#g"/></node></library_nodes>)",
+                    named = R"(<node id="ID1" name="wheel"><instance_node url="#wheel"/></node>)";
+  EXPECT_NEAR(surface_area(read(source(write("named.dae", square_collada(wheel, named))))), 2, 1e-6);
+  EXPECT_ERROR(read(source(write("itself.dae", square_collada("", named)))), "node 'ID1' holds itself");
+  const std::string ring =
+      R"(<node id="a"><instance_node url="#b"/></node><node id="b"><node id="c"><instance_node url="#a"/></node></node>)";
+  EXPECT_ERROR(read(source(write("ring.dae", square_collada("", ring)))), "holds itself");
+}
+
+TEST_F(MeshReader, KnowsColladaAndPlyByTheirContent) {
+  const std::string sound = square_collada("", R"(<node><instance_geometry url="#g"/></node>)");
+  std::string damaged = sound;
+  damaged.replace(damaged.find("<p>0 1"), 6, "<p>0 .0");
+  for (const char* name : {"box.xml", "box", "box.mesh.bin"}) {
+    EXPECT_NEAR(surface_area(read(source(write(name, sound)))), 2, 1e-6) << name;
+    EXPECT_ERROR(read(source(write(name, damaged))), "where a whole number from 0 on must stand");
+  }
+  std::string wide = "\xff\xfe";
+  for (const char c : sound) wide += {c, '\0'};
+  for (const char* name : {"wide.dae", "wide"}) EXPECT_ERROR(read(source(write(name, wide))), "save it as UTF-8");
+  EXPECT_ERROR(read(source(write("box.zae", std::string("PK\3\4") + sound))), "give the .dae that is in it");
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face 1\n"
+      "property list uchar uchar vertex_indices\nend_header\n" +
+      std::string("\n\0\0\0\0\0\0\2\0\3\0\1\2", 13);  // whose first byte is a line feed, which assimp skips
+  EXPECT_NEAR(surface_area(read(source(write("first_byte", ply)))), 10, 1e-9);
+}
+
+TEST_F(MeshReader, TakesAColladaController) {
+  const std::string
+      skin = R"(<library_controllers><controller id="k"><skin source="#g"><source id="j"><Name_array id="ja" count="1">bone</Name_array>
+<technique_common><accessor source="#ja" count="1" stride="1"><param name="JOINT" type="name"/></accessor></technique_common></source>
+<source id="b"><float_array id="ba" count="16">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array><technique_common>
+<accessor source="#ba" count="1" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor></technique_common></source>
+<source id="w"><float_array id="wa" count="1">1</float_array><technique_common><accessor source="#wa" count="1" stride="1">
+<param name="WEIGHT" type="float"/></accessor></technique_common></source>
+<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#b"/></joints>
+<vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/><input semantic="WEIGHT" source="#w" offset="1"/>
+<vcount>1 1 1 1</vcount><v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller></library_controllers>)",
+      scene = R"(<node id="bone" sid="bone" type="JOINT"/><node id="n"><instance_controller url="#k"><skeleton>#bone</skeleton>
+</instance_controller></node>)";
+  EXPECT_NEAR(surface_area(read(source(write("skin.dae", square_collada(skin, scene))))), 2, 1e-6);
+}
+
+TEST_F(MeshReader, RefusesColladaNodesThatHoldEachOtherTooDeep) {
+  std::string chain;
+  for (int k = 0; k < 600; ++k)
+    chain += "<node id='n" + std::to_string(k) + "'><instance_node url='#n" + std::to_string(k + 1) + "'/></node>\n";
+  EXPECT_ERROR(read(source(write("chain.dae", square_collada(chain, "")))), "nodes hold each other more than 500 deep");
+}
+
 TEST_F(MeshReader, CutsPolygonsIntoTriangles) {
   const std::string arrow = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n";  // a square with a deep notch
   const TriangleMesh mesh = read(source(write("arrow.obj", arrow)));
@@ -270,6 +334,21 @@ TEST_F(MeshReader, ReadsEveryDialectOfPly) {
     EXPECT_GT((two.corner(t, 1) - two.corner(t, 0)).cross(two.corner(t, 2) - two.corner(t, 0)).z(), 0) << t;
 }
 
+TEST_F(MeshReader, TakesPlyFacesBeforeVerticesAndMixedLineEnds) {
+  const std::string faces = "element face 1\nproperty list uchar uchar vertex_indices\n",
+                    vertices = "element vertex 4\nproperty uchar x\nproperty uchar y\nproperty uchar z\n", body = "4 0 1 2 3\n",
+                    corners = "0 0 0\n2 0 0\n2 1 0\n0 1 0\n";
+  EXPECT_NEAR(
+      surface_area(read(source(write("early.ply", "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n" + body + corners)))), 2,
+      1e-12);
+  EXPECT_ERROR(read(source(write("early.ply", "ply\nformat ascii 1.0\n" + faces + vertices + "end_header\n4 0 1 2 4\n" + corners))),
+               "names vertex 4, which does not exist: there are 4");
+  const std::string data("\0\0\0\2\0\0\2\1\0\0\1\0\4\0\1\2\3", 17);
+  EXPECT_NEAR(surface_area(read(
+                  source(write("mixed.ply", "ply\nformat binary_little_endian 1.0\r\n" + vertices + faces + "end_header\r\n" + data)))),
+              2, 1e-12);
+}
+
 TEST_F(MeshReader, RefusesPlyTextsInPlainWords) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n", places = "0 0 0\n1 0 0\n0 1 0\n";
@@ -307,6 +386,21 @@ TEST_F(MeshReader, RefusesAFaceOfTooManyCorners) {
     face += " " + std::to_string(k);
   }
   EXPECT_ERROR(read(source(write("t.obj", obj + face + "\n"))), "face 0 has 5000 corners; 4096 at most are allowed");
+}
+
+TEST_F(MeshReader, RefusesFacesThatTakeTooLong) {
+  // a comb of spikes in disorder crosses itself everywhere, so that each ear is sought among all corners
+  std::string ply =
+                  "ply\nformat ascii 1.0\nelement vertex 4096\nproperty float x\nproperty float y\nproperty float z\nelement face 200\n"
+                  "property list ushort int vertex_indices\nend_header\n",
+              face = "4096";
+  for (int k = 0; k < 4096; ++k) {
+    const double turn = 2.399963 * k;
+    ply += std::to_string(std::cos(turn) * (k + 1)) + " " + std::to_string(std::sin(turn) * (k + 1)) + " 0\n";
+    face += " " + std::to_string(k);
+  }
+  for (int f = 0; f < 200; ++f) ply += face + "\n";
+  EXPECT_ERROR(read(source(write("slow.ply", ply))), "have too many corners to be cut into triangles in time");
 }
 
 TEST_F(MeshReader, RefusesAPlyThatEndsInItsHeader) {

@@ -506,6 +506,32 @@ TEST(Joints, OnlyThoseThatAreCommandedTakeCommands) {
   EXPECT_EQ(error_of([&] { run.world.command_joint(0, 0, std::nan("")); }), "what is commanded of joint 'joint' is not finite");
 }
 
+TEST(Joints, TakeTheEffortsOfMotors) {
+  Case scene = hanging({2, 2, 2}, {0.03, 0.03, 0.03});  // a rotor of about 27 g
+  scene.joints = {joint_of(JointType::hinge, {2, 2, 2})};
+  scene.joints[0].command = JointCommandCase{};
+  Trial run(scene, 1e-3);
+  const MassProperties rotor = run.world.properties(1);
+  const double most = RigidWorld::greatest_joint_acceleration * std::sqrt(rotor.inertia(1, 1) * rotor.mass);
+  run.world.command_joint(0, 0, -0.99 * most);
+  const std::string said = error_of([&] { run.world.command_joint(0, 0, 1.01 * most); });
+  EXPECT_NE(said.find("beyond 1"), std::string::npos) << said;
+  EXPECT_NE(said.find("joint 'joint'"), std::string::npos) << said;
+  EXPECT_FALSE(error_of([&] { run.world.command_joint(0, 0, 1e300); }).empty());
+
+  scene.joints[0].point = {2, 2, 2.5};  // half a metre above it: the moment is the mass's at that radius, too
+  Trial arm(scene, 1e-3);
+  const double moment = rotor.inertia(1, 1) + 0.25 * rotor.mass;
+  arm.world.command_joint(0, 0, 0.99 * RigidWorld::greatest_joint_acceleration * std::sqrt(moment * rotor.mass));
+  EXPECT_FALSE(error_of([&] {
+                 arm.world.command_joint(0, 0, 1.01 * RigidWorld::greatest_joint_acceleration * std::sqrt(moment * rotor.mass));
+               }).empty());
+
+  scene.joints[0].command->greatest_effort = 100 * most;  // which the case allows
+  Trial strong(scene, 1e-3);
+  strong.world.command_joint(0, 0, 1e10);
+}
+
 TEST(Joints, SaysWhatDoesNotFit) {
   Case scene = hanging({2, 2, 2}, {0.2, 0.3, 0.4});
   scene.bodies.push_back(free_box("post", {1, 1, 1}, {0.2, 0.2, 0.2}));

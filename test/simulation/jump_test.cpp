@@ -137,6 +137,32 @@ TEST_F(Jump, ACommandBeyondReasonIsIgnoredAndTheOneBeforeStays) {
   }
   simulation.advance();
   EXPECT_EQ(simulation.bodies().state(1).velocity, Vector3d(3, 0, 0));
+  simulation.command(1, Vector3d(3, 1e6, 0), Vector3d(1e6, 0, 1e6));  // in two dimensions these do not count
+}
+
+TEST_F(Jump, ATanksSpeedIsBoundedWhereNoLimitEasesIt) {
+  Case scene = commanded_bar();
+  scene.tank.motion = Motion::commanded;
+  CommandCase& limits = scene.tank.rigid.command;
+  limits.greatest_acceleration = 50;
+  limits.greatest_angular_acceleration = {};
+  limits.timeout = 0;
+  const double fast = 0.6 * sound_speed;
+  {
+    Simulation simulation(scene);
+    simulation.command(0, Vector3d(fast, 0, 0), Vector3d::Zero());
+    EXPECT_NE(error_of([&] { simulation.command(0, Vector3d::Zero(), Vector3d(0, 1e4, 0)); }).find("the tank"), std::string::npos);
+    while (simulation.bodies().state(0).velocity.x() < 0.12 * sound_speed) simulation.advance();
+    // beside the tank the one is slower than half the speed of sound, and the other faster
+    simulation.command(1, Vector3d(fast, 0, 0), Vector3d::Zero());
+    EXPECT_NE(error_of([&] { simulation.command(1, Vector3d(-0.45 * sound_speed, 0, 0), Vector3d::Zero()); }).find("body 'bar'"),
+              std::string::npos);
+  }
+  scene.tank.rigid.command.greatest_acceleration = {};
+  scene.tank.rigid.command.greatest_angular_acceleration = 1;
+  Simulation simulation(scene);
+  EXPECT_NE(error_of([&] { simulation.command(0, Vector3d(fast, 0, 0), Vector3d::Zero()); }).find("the tank"), std::string::npos);
+  simulation.command(0, Vector3d::Zero(), Vector3d(0, 1e4, 0));
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct ChildResult {
     done,           ///< `bytes` are what the work returned
     refused,        ///< it threw an exception: `bytes` are its what()
     out_of_memory,  ///< of what it was allowed
-    out_of_time,    ///< likewise
+    out_of_time,    ///< likewise: `bytes` are the limit that it met, such as "15 s of processor time"
+    interrupted,    ///< this process was asked to end (EndingSignals)
     crashed         ///< by a signal, or without a word: `bytes` are which
   };
   End end = End::crashed;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <thread>
 
+#include "wavetank/common/error.h"
+
 namespace wavetank {
 
 /// Ctrl-C (SIGINT), SIGTERM, SIGHUP (a terminal that was closed) and SIGXCPU (ulimit -t) as a request to end, without a signal handler. A
@@ -21,6 +23,9 @@ class EndingSignals {
   /// The calling thread, which must be the one that made this, hears signals as before.
   ~EndingSignals();
 
+  /// Whether one that lives has heard the first of its signals.
+  static bool heard();
+
   EndingSignals(const EndingSignals&) = delete;
   EndingSignals& operator=(const EndingSignals&) = delete;
 
@@ -32,6 +37,11 @@ class EndingSignals {
   sigset_t before_{};
   sigset_t awaited_{};
   std::thread thread_;
+};
+
+/// What was under way was left, as an EndingSignals has heard its first signal.
+struct EndRequested : Error {
+  using Error::Error;
 };
 
 }  // namespace wavetank

@@ -37,6 +37,7 @@ class BagRun {
   void finish();
   void finish_vtk();
   void finish_bag();
+  Outcome left_start();
   void cut_short(const Error& full);
   RunState run_state(std::uint8_t phase) const;
   std::string failure_snapshot() const;

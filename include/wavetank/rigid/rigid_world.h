@@ -51,9 +51,12 @@ struct MooringState {
 /// contacts.
 class RigidWorld {
  public:
-  /// Of what a wrench from outside or a joint's effort alone may make of a free body, m/s²: a hundred times gravity. Angular accelerations
-  /// count at the body's radius of gyration.
+  /// Of what a wrench from outside alone may make of a free body, m/s²: a hundred times gravity. Angular accelerations count at the body's
+  /// radius of gyration.
   static constexpr double greatest_acceleration = 1000;
+  /// Of what a joint's effort alone may make of all that hangs on either end, if the case does not limit the effort, m/s²: motors turn
+  /// light rotors much faster than bodies can move in water. About a hinge at the radius of gyration about its axis.
+  static constexpr double greatest_joint_acceleration = 1e5;
 
   /// Makes nothing of Bullet's where no body is free. Throws Error for mass properties that cannot be, prescribed motions that cannot be
   /// read, joints and moorings that do not fit, and free bodies that start wholly outside of the tank. Says once, through the log, where a
@@ -86,7 +89,7 @@ class RigidWorld {
   void command(std::size_t owner, double time, const Vector3d& velocity, const Vector3d& angular_velocity);
 
   /// Of an effort (N or N·m) or a velocity (m/s or rad/s) of a joint that is commanded. Throws Error for one that is not, a value that
-  /// is not finite, and an effort beyond greatest_acceleration.
+  /// is not finite, and, where the case does not limit its effort, one beyond greatest_joint_acceleration.
   void command_joint(std::size_t joint, double time, double value);
   /// At present, of the tank and then of the bodies, in the case's order.
   std::vector<MooringState> moorings() const;

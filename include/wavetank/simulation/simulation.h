@@ -115,13 +115,14 @@ class Simulation {
   /// alone would accelerate it beyond RigidWorld::greatest_acceleration; the wrench before stays.
   void set_outside_wrench(std::size_t owner, const OutsideWrench& wrench);
   /// Of a commanded body or tank (owner 0), in its own axes, from the next step on. Throws Error for one that is not commanded, a value
-  /// that is not finite, and a speed of any of its points of half the speed of sound and more; the command before stays.
+  /// that is not finite, and, but for what its limits of acceleration ease, a speed of any of its points, relative to the tank, of half the
+  /// speed of sound and more; the command before stays.
   void command(std::size_t owner, const Vector3d& velocity, const Vector3d& angular_velocity);
   /// Of a commanded opening, m³/s (2-D: m²/s), from the next step on. Throws Error for an opening that is not commanded, and for a value
   /// that is not finite, negative, or faster than a tenth of the speed of sound.
   void command_discharge(std::size_t opening, double discharge);
   /// Of a joint that is commanded, N, N·m, m/s or rad/s, from the next step on. Throws Error for one that is not, for a value that is
-  /// not finite, and for one beyond reason, as set_outside_wrench and command have it.
+  /// not finite, an effort as RigidWorld::command_joint has it, and a velocity of half the speed of sound and more.
   void command_joint(std::size_t joint, double value);
   const std::vector<OpeningState>& openings() const;  ///< in the case's order
   const RigidWorld& bodies() const;
