@@ -203,23 +203,8 @@ class Film:
     def __init__(self, path, ending, size, fps):
         self._path, self._part = path, path + ".part" + ending
         self._errors = tempfile.TemporaryFile()  # not a pipe, which nobody would empty while pictures are drawn
-        command = [
-            find_ffmpeg(),
-            "-loglevel",
-            "error",
-            "-xerror",
-            "-y",
-            "-f",
-            "rawvideo",
-            "-pix_fmt",
-            "rgb24",
-            "-s",
-            "%dx%d" % size,
-            "-r",
-            "%g" % fps,
-            "-i",
-            "-",
-        ]
+        command = [find_ffmpeg(), "-loglevel", "error", "-xerror", "-y"]
+        command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
         if ending == ".gif":
             command += ["-filter_complex", GIF_COLOURS]
         else:
