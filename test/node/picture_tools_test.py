@@ -401,6 +401,16 @@ class FilesOfARun(ToolTest):
             self.assertGreater(counts["Polys"], 100)
             self.assertEqual(arrays["points"].tolist(), corners.tolist())
 
+    def test_have_the_state_that_the_watchdog_stopped(self):
+        water = [{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}]  # falls faster than half of the speed of sound
+        case = self.case(duration=2.0, fluid__sound_speed=0.6, fluid__fill=water, bodies=None)
+        result = self.run_program(case, "--vtk", "out", "--vtk-rate", "1")
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        times = [at for at, name, _ in read_collection(self.path("out/case.pvd")) if name == "water"]
+        self.assertEqual((len(times), times[0]), (2, 0.0))  # the second before one is due
+        self.assertTrue(0.0 < times[1] < 0.5, times)
+        self.assertEqual([at for at, _, _ in read_collection(self.path("out/data/water.pvd"))], times)
+
     def test_what_is_wrong_is_one_sentence(self):
         os.mkdir(self.path("full"))
         open(self.path("full/other"), "w").close()
