@@ -42,7 +42,8 @@ void make_folder(const std::string& folder) {
   } else if (!fs::create_directory(folder, problem)) {
     const fs::path parent = fs::path(folder).parent_path();
     std::error_code unknown;
-    const bool has_parent = parent.empty() || fs::is_directory(parent, unknown) || unknown;
+    const bool has_parent =
+        parent.empty() || fs::is_directory(parent, unknown) || (unknown && unknown != std::errc::no_such_file_or_directory);
     throw Error(what + (has_parent ? problem.message() : "there is no folder '" + parent.string() + "'"));
   }
 }

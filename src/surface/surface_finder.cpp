@@ -94,16 +94,6 @@ class Blocks {
   std::vector<int> counts_;
 };
 
-/// Of a simulation that its watchdog has stopped, particles may be anywhere, and even nowhere: a grid over all of them would have no end.
-void leave_out_lost(std::vector<Eigen::Vector3f>& particles, const Box& domain) {
-  const double reach = (domain.max - domain.min).maxCoeff();
-  const auto is_lost = [&](const Eigen::Vector3f& particle) {
-    const Eigen::Array3d place = particle.cast<double>().array();
-    return !((place >= domain.min.array() - reach).all() && (place <= domain.max.array() + reach).all());  // true of NaN too
-  };
-  particles.erase(std::remove_if(particles.begin(), particles.end(), is_lost), particles.end());
-}
-
 }  // namespace
 
 bool can_find_surface() { return can_contour(); }
@@ -290,7 +280,6 @@ WaterField SurfaceFinder::look_at(const Simulation& simulation) const {
   WaterField field;
   field.time = simulation.state().time;
   field.particles = simulation.places();
-  leave_out_lost(field.particles, parts.domain);
   const auto moved = parts.moved_owners(simulation.bodies());
   const Blocks blocks(field.particles, parts.grid, parts.dimensions);
   std::vector<char> is_near(blocks.count()), is_packed(blocks.count());
