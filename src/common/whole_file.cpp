@@ -36,7 +36,7 @@ int open_part(const std::string& path, const std::string& what, std::string& par
 }
 
 /// errno's value of what went wrong; 0 = nothing.
-int write_all(int file, std::string_view content) {
+int write_all(int file, std::string_view content, bool until_on_disk) {
   while (!content.empty()) {
     const ssize_t written = write(file, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
@@ -44,6 +44,7 @@ int write_all(int file, std::string_view content) {
     if (written == 0) return ENOSPC;
     content.remove_prefix(static_cast<std::size_t>(written));
   }
+  if (!until_on_disk) return 0;
   // some disks tell only now that they are full
   return fsync(file) != 0 && errno != EINVAL && errno != EROFS ? errno : 0;
 }
@@ -83,12 +84,12 @@ void check_writable(const std::string& path, const std::string& what) {
   std::remove(part.c_str());
 }
 
-void write_whole(const std::string& path, std::string_view content, const std::string& what) {
+void write_whole(const std::string& path, std::string_view content, const std::string& what, bool until_on_disk) {
   const std::string obstacle = obstacle_to_file(path);
   if (!obstacle.empty()) fail(path, what, obstacle);
   std::string part;
   const int file = open_part(path, what, part);
-  int problem = write_all(file, content);
+  int problem = write_all(file, content, until_on_disk);
   if (close(file) != 0 && problem == 0) problem = errno;
   if (problem == 0 && std::rename(part.c_str(), path.c_str()) != 0) problem = errno;
   if (problem == 0) return;

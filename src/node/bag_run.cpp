@@ -28,6 +28,18 @@ std::string vtk_view() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+void refuse_same_paths(const RunOptions& options) {
+  const std::pair<const char*, const std::string&> outputs[] = {{"--bag", options.bag}, {"--save", options.save}, {"--vtk", options.vtk}};
+  const auto whole = [](const std::string& path) {
+    const fs::path normal = fs::absolute(path).lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();  // "out/" is "out"
+  };
+  for (const auto& [flag, path] : outputs)
+    for (const auto& [other_flag, other] : outputs)
+      if (&path < &other && !path.empty() && !other.empty() && whole(path) == whole(other))
+        throw Error(std::string(flag) + " and " + other_flag + " are both '" + path + "'; give each a name of its own");
+}
+
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
@@ -42,13 +54,11 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
   check_names(case_);
   // a snapshot is written at the end of hours: a name that will not do is to be told at the beginning
   if (!options_.save.empty()) check_writable(options_.save, "the snapshot");
-  const auto whole = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
-  if (!options_.save.empty() && !options_.bag.empty() && whole(options_.save) == whole(options_.bag))
-    throw Error("--bag and --save are both '" + options_.save + "'; give each a file of its own");
+  refuse_same_paths(options_);
   if (!options_.bag.empty())
     recorder_ = std::make_unique<RunRecorder>(options_.bag, "/wavetank", case_, clock_,
                                               RecordedPictures{options_.clouds, options_.particles, options_.surface});
-  if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkRecorder>(options_.vtk, options_.vtk_rate, case_, vtk_view());
+  if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkRecorder>(options_.vtk, options_.vtk_rate, case_, vtk_view(), options_.surface);
 }
 
 BagRun::Outcome BagRun::run() {
@@ -175,8 +185,8 @@ void BagRun::finish() {
 
 void BagRun::finish_vtk() {
   try {
-    vtk_->finish();
-  } catch (const VtkError& error) {
+    vtk_->finish(*simulation_);
+  } catch (const std::exception& error) {  // whatever it is, the bag is still to be ended
     if (cut_short_.empty()) cut_short_ = error.what();
   }
 }
@@ -263,7 +273,7 @@ void BagRun::report() const {
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
   if (bag_is_whole_) std::printf("bag               %s\n", visible_text(recorder_->path(), PATH_MAX).c_str());
-  if (vtk_) std::printf("for ParaView      %s\n", visible_text(vtk_->path(), PATH_MAX).c_str());
+  if (vtk_ && vtk_->has_frames()) std::printf("for ParaView      %s\n", visible_text(vtk_->path(), PATH_MAX).c_str());
   if (!options_.save.empty() && violation_.empty() && cut_short_.empty())
     std::printf("snapshot          %s\n", visible_text(options_.save, PATH_MAX).c_str());
   if (!options_.profile) return;

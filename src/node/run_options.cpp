@@ -61,11 +61,13 @@ RunOptions read_command_line(int argc, char** argv) {
   app.add_option("--bag,-b", options.bag, "write the samples to this bag (an older plain file is replaced)")->type_name("FILE");
   app.add_flag("--clouds", options.clouds, "with the free surface's particles in the bag, at rate rates/cloud_bag");
   app.add_flag("--particles", options.particles, "with all particles in the bag, at the same rate");
-  app.add_option("--vtk", options.vtk, "write files for ParaView into this folder, which must be new or empty, while the run goes on")
-      ->type_name("DIR");
+  const CLI::Option* const vtk =
+      app.add_option("--vtk", options.vtk, "write files for ParaView into this folder, which must be new or empty, while the run goes on")
+          ->type_name("DIR");
   const CLI::Option* const vtk_rate =
       app.add_option("--vtk-rate", options.vtk_rate, "frames a second of simulated time for --vtk, if not 20")->type_name("HZ");
-  app.add_flag("--surface", options.surface, "with the water's surface as a mesh and a height map in the bag, at rate rates/surface_bag");
+  app.add_flag("--surface", options.surface,
+               "with the water's surface as a mesh: in the bag, with a height map, at rate rates/surface_bag; in files for ParaView");
   app.add_option("--duration", duration, "simulated time instead of the case's duration, s")->type_name("S");
   app.add_option("--set", shown_only, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")->type_name("KEY=VALUE");
   app.add_option("--device", device, "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name")->type_name("DEVICE");
@@ -100,9 +102,10 @@ RunOptions read_command_line(int argc, char** argv) {
   if (options.case_file.empty()) throw Error("give the case, a YAML file: wavetank_run CASE.yaml --bag out.bag");
   if (options.clouds && options.bag.empty()) throw Error("--clouds needs --bag FILE to write them to");
   if (options.particles && options.bag.empty()) throw Error("--particles needs --bag FILE to write them to");
+  if (vtk->count() > 0 && options.vtk.empty()) throw Error("--vtk: the folder has no name");
   if (vtk_rate->count() > 0 && options.vtk.empty()) throw Error("--vtk-rate needs --vtk DIR, whose frames it is the rate of");
   if (!(options.vtk_rate > 0 && options.vtk_rate <= 1e6)) throw Error("--vtk-rate must be greater than 0 and at most 1000000 Hz");
-  if (options.surface && options.bag.empty()) throw Error("--surface needs --bag FILE to write it to");
+  if (options.surface && options.bag.empty() && options.vtk.empty()) throw Error("--surface needs --bag FILE or --vtk DIR to write it to");
   if (options.surface && !can_find_surface()) throw Error(std::string("--surface: ") + why_no_surface);
   if (!duration.empty()) options.overrides.push_back({"duration", duration});
   if (!device.empty()) options.overrides.push_back({"device", yaml_of(device)});  // quoted: 0:1 is a number to some YAML

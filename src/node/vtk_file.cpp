@@ -139,6 +139,7 @@ void VtkCollection::add(double time, int part, const std::string& name, const st
   std::snprintf(shown, sizeof shown, "%.9g", time);
   entries_ += std::string("<DataSet timestep=\"") + shown + "\" part=\"" + std::to_string(part) + "\" name=\"" + xml_text(name) +
               "\" file=\"" + xml_text(file) + "\"/>\n";
+  ++count_;
 }
 
 std::string VtkCollection::content() const {

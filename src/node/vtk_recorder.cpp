@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
 #include "wavetank/node/frames.h"
 #include "wavetank/scene/upward.h"
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double least_delay = 1e-9;  ///< s, below any step
+constexpr int listing_period = 10;    ///< frames
 const char* const data_folder = "data";
 
 std::string without_last_slash(std::string path) {
@@ -39,7 +41,9 @@ void make_folder(const std::string& folder) {
     if (!is_empty) throw Error(what + "it is not empty; give a new folder, or empty it");
   } else if (!fs::create_directory(folder, problem)) {
     const fs::path parent = fs::path(folder).parent_path();
-    const bool has_parent = parent.empty() || fs::is_directory(parent);
+    std::error_code unknown;
+    const bool has_parent =
+        parent.empty() || fs::is_directory(parent, unknown) || (unknown && unknown != std::errc::no_such_file_or_directory);
     throw Error(what + (has_parent ? problem.message() : "there is no folder '" + parent.string() + "'"));
   }
 }
@@ -83,6 +87,27 @@ VtkPolygons water_of(const ParticleCloud& cloud) {
   return water;
 }
 
+VtkPolygons surface_triangles(const WaterSurface& surface) {
+  VtkPolygons polygons;
+  polygons.cells = VtkPolygons::Cells::triangles;
+  std::vector<float> points;
+  points.reserve(9 * surface.triangles.size());
+  for (const std::array<int, 3>& triangle : surface.triangles)
+    for (const int corner : triangle)
+      for (int axis = 0; axis < 3; ++axis) points.push_back(surface.vertices[corner][axis]);
+  polygons.points = points;
+  return polygons;
+}
+
+VtkPolygons spray_points(const WaterSurface& surface) {
+  std::vector<float> points;
+  for (const Eigen::Vector3f& drop : surface.spray)
+    for (int axis = 0; axis < 3; ++axis) points.push_back(drop[axis]);
+  VtkPolygons polygons;
+  polygons.points = points;
+  return polygons;
+}
+
 template <class Instruments>
 std::vector<std::string> names_of(const Instruments& instruments) {
   std::vector<std::string> names;
@@ -92,19 +117,9 @@ std::vector<std::string> names_of(const Instruments& instruments) {
 
 }  // namespace
 
-VtkRecorder::VtkRecorder(const std::string& folder, double rate, const Case& scene, std::string view)
-    : folder_(without_last_slash(folder)), period_(1.0 / rate), scene_(scene), view_(std::move(view)) {
+VtkRecorder::VtkRecorder(const std::string& folder, double rate, const Case& scene, std::string view, bool with_surface)
+    : folder_(without_last_slash(folder)), period_(1.0 / rate), scene_(scene), view_(std::move(view)), with_surface_(with_surface) {
   make_folder(folder_);
-}
-
-VtkRecorder::~VtkRecorder() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    waiting_.reset();
-    is_over_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
 }
 
 void VtkRecorder::start(const Simulation& simulation) {
@@ -114,98 +129,95 @@ void VtkRecorder::start(const Simulation& simulation) {
   for (std::size_t owner = 0; owner < bodies.count(); ++owner)
     shapes_.push_back({owner == 0 ? "tank" : "body_" + scene_.bodies[owner - 1].name, owner, corners_of(simulation.layout().meshes[owner]),
                        owner > 0 && frames[owner].moves});
+  if (with_surface_) finder_ = std::make_unique<SurfaceFinder>(simulation);
   next_ = simulation.state().time;
   std::error_code problem;
   if (!fs::create_directory(folder_ + "/" + data_folder, problem))
     throw VtkError("cannot write files for ParaView into '" + folder_ + "': " + problem.message());
-  write_file("view.py", view_);
-  thread_ = std::thread([this] { write_frames(); });
+  write_file("view.py", view_, false);
+  work_ = std::make_unique<BackgroundWork>();
 }
 
 void VtkRecorder::record(const Simulation& simulation, const Samples& samples) {
+  work_->check();
   if (!samples.pressures.empty()) readings_.pressures = samples.pressures.back().pressures;
   if (!samples.levels.empty()) readings_.levels = samples.levels.back().levels;
   if (!samples.velocities.empty()) readings_.velocities = samples.velocities.back().velocities;
   const double time = simulation.state().time;
   if (time < next_ - least_delay) return;
   while (next_ <= time + least_delay) next_ += period_;
-  Frame frame;
-  frame.water = simulation.particles();
+  add_frame(simulation);
+}
+
+void VtkRecorder::add_frame(const Simulation& simulation) {
+  const auto frame = std::make_shared<Frame>();
+  frame->water = simulation.particles();
+  if (finder_) frame->field = finder_->look_at(simulation);
   for (std::size_t owner = 0; owner < simulation.bodies().count(); ++owner)
-    frame.states.push_back(simulation.bodies().state_in_tank(owner));
-  frame.readings = readings_;
-  hand_over(std::move(frame));
+    frame->states.push_back(simulation.bodies().state_in_tank(owner));
+  frame->readings = readings_;
+  last_ = simulation.state().time;
+  hand_over([this, frame] { write_frame(*frame); });
 }
 
-void VtkRecorder::hand_over(Frame frame) {
-  std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return !waiting_ || problem_; });
-  throw_problem();
-  waiting_ = std::move(frame);
-  changed_.notify_all();
-}
-
-void VtkRecorder::finish() {
-  if (!thread_.joinable()) return;
-  {
-    std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [this] { return (!waiting_ && !is_writing_) || problem_; });
-    is_over_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-  throw_problem();
-}
-
-/// Once: whoever was told goes on without.
-void VtkRecorder::throw_problem() {
-  if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
-}
-
-void VtkRecorder::write_frames() {
-  while (true) {
-    Frame frame;
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [this] { return waiting_ || is_over_; });
-      if (!waiting_) return;
-      frame = std::move(*waiting_);
-      waiting_.reset();
-      is_writing_ = true;
-    }
-    changed_.notify_all();
-    std::exception_ptr problem;
+/// Whatever goes wrong with it is a matter of the files, for which nothing else may be lost.
+void VtkRecorder::hand_over(std::function<void()> piece) {
+  work_->hand_over([this, piece = std::move(piece)] {
     try {
-      write_frame(frame);
-    } catch (const std::exception&) {
-      problem = std::current_exception();
+      piece();
+    } catch (const VtkError&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw VtkError("cannot write files for ParaView into '" + folder_ + "': " + error.what());
     }
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      is_writing_ = false;
-      problem_ = problem;
-    }
-    changed_.notify_all();
-    if (problem) return;
-  }
+  });
+}
+
+void VtkRecorder::finish(const Simulation& simulation) {
+  if (!work_) return;
+  if (simulation.state().time > last_ + least_delay) add_frame(simulation);
+  hand_over([this] { write_collections(true); });
+  work_->finish();
 }
 
 void VtkRecorder::write_frame(const Frame& frame) {
-  parts_ = 0;
+  if (finder_) write_surface(frame);
   write_part(frame, "water", water_of(frame.water));
   for (const Shape& shape : shapes_) {
     const std::string file = shape.name + ".vtp";
     if (shape.moves) {
       write_part(frame, shape.name, triangles_of(shape, frame));
     } else {
-      if (frames_ == 0) write_file(std::string(data_folder) + "/" + file, vtp_content(triangles_of(shape, frame)));
+      if (frames_ == 0) write_file(std::string(data_folder) + "/" + file, vtp_content(triangles_of(shape, frame)), false);
       list_part(frame.water.time, shape.name, file);
     }
   }
   write_readings(frame);
-  for (const auto& [name, collection] : parts_of_) write_file(std::string(data_folder) + "/" + name + ".pvd", collection.content());
-  write_file("case.pvd", all_.content());
+  write_collections(false);
+  has_frames_ = true;
   ++frames_;
+}
+
+/// Without it, where it cannot be found: the particles are there all the same.
+void VtkRecorder::write_surface(const Frame& frame) {
+  WaterSurface surface;
+  try {
+    surface = finder_->find(frame.field);
+  } catch (const std::exception& error) {
+    log(LogLevel::warning, std::string("a surface of the water could not be found: ") + error.what());
+  }
+  write_part(frame, "surface", surface_triangles(surface));
+  write_part(frame, "spray", spray_points(surface));
+}
+
+/// case.pvd each time. Those of single things, which would be as long as all of the run each time, if they are new or it is their turn, or
+/// if all are asked for.
+void VtkRecorder::write_collections(bool all) const {
+  const bool is_their_turn = all || frames_ % listing_period == 0;
+  for (const auto& [name, collection] : parts_of_)
+    if (is_their_turn || collection.count() == 1)
+      write_file(std::string(data_folder) + "/" + name + ".pvd", collection.content(), is_their_turn);
+  write_file("case.pvd", all_.content(), is_their_turn);
 }
 
 void VtkRecorder::write_readings(const Frame& frame) {
@@ -262,18 +274,20 @@ void VtkRecorder::write_part(const Frame& frame, const std::string& name, const 
   char number[16];
   std::snprintf(number, sizeof number, "_%05d", frames_);
   const std::string file = name + number + ".vtp";
-  write_file(std::string(data_folder) + "/" + file, vtp_content(polygons));
+  write_file(std::string(data_folder) + "/" + file, vtp_content(polygons), false);
   list_part(frame.water.time, name, file);
 }
 
+/// A name keeps its place in all frames, also behind instruments that have no reading at first.
 void VtkRecorder::list_part(double time, const std::string& name, const std::string& file) {
   parts_of_[name].add(time, 0, name, file);
-  all_.add(time, parts_++, name, std::string(data_folder) + "/" + file);
+  const int place = places_.emplace(name, static_cast<int>(places_.size())).first->second;
+  all_.add(time, place, name, std::string(data_folder) + "/" + file);
 }
 
-void VtkRecorder::write_file(const std::string& name, const std::string& content) const {
+void VtkRecorder::write_file(const std::string& name, const std::string& content, bool until_on_disk) const {
   try {
-    write_whole(folder_ + "/" + name, content, "the file for ParaView");
+    write_whole(folder_ + "/" + name, content, "the file for ParaView", until_on_disk);
   } catch (const Error& error) {
     throw VtkError(error.what());
   }

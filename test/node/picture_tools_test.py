@@ -15,9 +15,11 @@ import program_runner
 import water_bag
 from program_runner import PACKAGE, ProgramTest
 from vtk_reading import read_collection, read_vtp
-from wavetank import rotations
+from wavetank import Failure, camera, rotations
 from wavetank.recording import Recording
-from wavetank.vtk_files import PolyData
+from wavetank.render import colour_range
+from wavetank.scenery import Surface
+from wavetank.vtk_files import PolyData, up_axis
 
 SCRIPTS = os.path.join(PACKAGE, "scripts")
 try:
@@ -50,6 +52,24 @@ class ToolTest(ProgramTest):
     def bag(self, **choices):
         water_bag.write_bag(self.path("water.bag"), **choices)
         return "water.bag"
+
+
+def wait_for(condition, seconds=30):
+    end = time.time() + seconds
+    while time.time() < end:
+        if condition():
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def runs(process):
+    """Whether a process goes on; nobody may be there to take note of its end."""
+    try:
+        with open("/proc/%d/stat" % process) as file:
+            return file.read().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
 
 
 def read_png(path):
@@ -93,9 +113,9 @@ class Render(ToolTest):
 
     @unittest.skipUnless(CAN_FILM, MISSING)
     def test_a_film_has_the_pictures_of_its_time(self):
-        done = self.run_tool("render", self.bag(), "-o", "water.gif", "--size", "160x90", "--fps", "10", "--speed", "0.25")
+        done = self.run_tool("render", self.bag(), "-o", "water:1.gif", "--size", "160x90", "--fps", "10", "--speed", "0.25")
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("water.gif"), "rb") as file:
+        with open(self.path("water:1.gif"), "rb") as file:
             content = file.read()
         self.assertEqual(content[:6] + content[6:10], b"GIF89a" + bytes([160, 0, 90, 0]))
         # from 0.05 s to 0.15 s, 0.025 s apart: some may be one picture shown for longer
@@ -104,9 +124,63 @@ class Render(ToolTest):
         self.assertLess(abs(sum(delays) - 50), 15)
         self.assertEqual([name for name in self.files() if "part" in name], [])
 
+    @unittest.skipUnless(CAN_FILM, MISSING)
+    def test_what_a_full_disk_does_not_take_is_told(self):
+        disk, bag = self.small_disk("4k"), self.bag()
+        for name in ("water.mp4", "water.gif", "water.png"):
+            speed = ["--speed", "0.5"] if name != "water.png" else []
+            done = self.run_tool("render", bag, "-o", os.path.join(disk, name), "--size", "320x180", *speed)
+            self.assert_sentence(done, "%s': the disk is full" % name)
+            self.assertEqual(os.listdir(disk), [])
+
+    @unittest.skipUnless(vtkmodules, MISSING)
+    def test_no_display_is_left_behind(self):
+        # one that never takes connections: what draws waits for it
+        os.mkdir(self.path("bin"))
+        with open(self.path("bin/Xvfb"), "w") as file:
+            file.write("#!/bin/sh\necho $$ > pid.part\nmv pid.part pid\nexec sleep 100\n")
+        os.chmod(self.path("bin/Xvfb"), 0o755)
+        environment = dict(os.environ, PATH=self.path("bin") + os.pathsep + os.environ["PATH"])
+        command = [sys.executable, os.path.join(SCRIPTS, "render"), self.bag(), "-o", "a.png"]
+        for signal_number in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
+            drawing = subprocess.Popen(command, cwd=self.folder, env=environment, stderr=subprocess.DEVNULL)
+            self.assertTrue(wait_for(lambda: os.path.exists(self.path("pid"))))
+            with open(self.path("pid")) as file:
+                display = int(file.read())
+            os.remove(self.path("pid"))
+            drawing.send_signal(signal_number)
+            self.assertNotEqual(drawing.wait(timeout=30), 0)
+            self.assertTrue(wait_for(lambda: not runs(display)), signal_number)
+
+    def test_colours_have_a_range_whatever_the_values(self):
+        self.assertEqual(colour_range(numpy.linspace(0.0, 2.0, 1001), True), (0.0, 2.0))
+        for values in (numpy.zeros(5), numpy.full(5, -300.0), numpy.linspace(-500.0, -10.0, 100), numpy.array([numpy.nan, -1.0, 3.0]), numpy.zeros(0)):
+            low, high = colour_range(values, False)
+            finite = values[numpy.isfinite(values)]
+            self.assertTrue(numpy.isfinite([low, high]).all() and low < high, (low, high))
+            if len(finite):
+                self.assertLessEqual(low, numpy.percentile(finite, 1))
+                self.assertGreaterEqual(high, numpy.percentile(finite, 99))
+
+    def test_views_that_cannot_be_followed_are_refused(self):
+        view = "Visualization Manager:\n  Global Options:%s\n  Views: {Current: {Focal Point: {X: 1, Y: 2, Z: 3}, Yaw: 0, Pitch: 0, Distance: 4%s}}\n"
+
+        def read(fixed, target=""):
+            with open(self.path("my.rviz"), "w") as file:
+                file.write(view % (fixed, target))
+            return camera.from_rviz(self.path("my.rviz"))
+
+        self.assertEqual((read("").eye.tolist(), read("").in_world), ([5, 2, 3], False))
+        self.assertTrue(read(" {Fixed Frame: world}", ", Target Frame: <Fixed Frame>").in_world)
+        with self.assertRaisesRegex(Failure, "follows the frame 'tank/bodies/hull', which cannot be drawn"):
+            read(" {Fixed Frame: world}", ", Target Frame: tank/bodies/hull")
+        with self.assertRaisesRegex(Failure, "holds no view of rviz"):
+            read(" [1]")
+
     def test_what_is_wrong_is_one_sentence(self):
         bag = self.bag()
         water_bag.write_bag(self.path("dry.bag"), clouds=False)
+        water_bag.write_bag(self.path("surface.bag"), clouds=False, surface=True)
         for arguments, words in (
             (["none.bag", "-o", "a.png"], "there is no bag 'none.bag'"),
             (["dry.bag", "-o", "a.png"], "holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds"),
@@ -118,9 +192,18 @@ class Render(ToolTest):
             ([bag, "-o", "a.mp4", "--at", "0.1"], "--at is of a picture"),
             ([bag, "-o", "a.png", "--size", "big"], "--size 'big' is not WIDTHxHEIGHT"),
             ([bag, "-o", "a.png", "--water", "surface"], "holds no surface of the water"),
+            (["surface.bag", "-o", "a.png", "--water", "particles"], "holds no particles of the water"),
+            (["surface.bag", "-o", "a.png", "--colour", "speed"], "--colour is of particles"),
+            (["surface.bag", "-o", "a.png", "--range", "0,1"], "--range is of particles"),
+            ([bag, "-o", "a.png", "--target", "0,0,0"], "--target needs --eye"),
+            ([bag, "-o", "a.png", "--eye", "0,0,0", "--view", "weir"], "--view tells where the camera is, as --eye does"),
+            ([bag, "-o", "a.png", "--fps", "10"], "--fps is of a film"),
+            ([bag, "-o", "a.png", "--speed", "1"], "--speed is of a film"),
+            ([bag, "-o", "a.mp4", "--speed", "1e-9"], "--speed 1e-09 makes a film of 2.5e+09 pictures, and at most 100000 are drawn"),
+            ([bag, "-o", "a.mp4", "--speed", "5e-324"], "pictures, and at most 100000 are drawn"),
         ):
-            self.assert_sentence(self.run_tool("render", *arguments), words)
-        self.assertEqual(self.files(), ["dry.bag", "water.bag"])
+            self.assert_sentence(self.run_tool("render", *arguments, PATH="/nowhere"), words)  # before anything draws
+        self.assertEqual(self.files(), ["dry.bag", "surface.bag", "water.bag"])
 
     def test_what_is_not_installed_is_named(self):
         os.mkdir(self.path("vtkmodules"))
@@ -170,6 +253,36 @@ class Files(ToolTest):
             compile(file.read(), "view.py", "exec")
         self.assert_sentence(self.run_tool("export", "water.bag", "--vtk", "out"), "into 'out': it is not empty; give a new folder")
         self.assert_sentence(self.run_tool("export", "water.bag", "--vtk", "water.bag"), "it is no folder")
+
+    def test_what_failed_can_be_tried_again(self):
+        self.assert_sentence(self.run_tool("export", self.bag(), "--vtk", "out", ROS_PACKAGE_PATH="/nowhere"), "the package wavetank is not to be found")
+        self.assertEqual(self.run_tool("export", "water.bag", "--vtk", "out").returncode, 0)
+
+    def test_bodies_without_poses_are_left_out_with_a_warning(self):
+        done = self.run_tool("export", self.bag(odometry=False), "--vtk", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("'water.bag' does not tell where body 'hull' is", done.stderr)
+        listed = read_collection(self.path("out/case.pvd"))
+        self.assertEqual([name for _, name, _ in listed], ["water", "tank", "probes", "gauges"] * len(water_bag.TIMES))
+        arrays, _ = read_vtp([file for _, name, file in listed if name == "probes"][-1])
+        self.assertEqual((arrays["name"], arrays["pressure"].tolist(), arrays["points"].tolist()), (["P2"], [7.0], [[0.5, 0.0, 0.0]]))
+
+    def test_levels_are_along_the_axis_of_the_top(self):
+        # as test/scene has it of the node's
+        for case, axis in (
+            ({}, 2),
+            ({"gravity": [0, 0, 0]}, 2),
+            ({"gravity": [-9.81, 0, 0]}, 0),
+            ({"gravity": [0, 9.81, 0.1]}, 1),
+            ({"gravity": [-9.81, 0, 0], "dimensions": 2}, 0),
+            ({"gravity": [7, 0, -7]}, 2),
+            ({"gravity": [7, -7, 0]}, 1),
+            ({"gravity": [9.0, 0, -1.0], "tank": {"periodic": ["x"]}}, 2),
+            ({"gravity": [9.0, 0, 0], "tank": {"periodic": ["x"]}}, 2),
+            ({"gravity": [1.0, 9.0, 0], "tank": {"periodic": ["y"]}}, 0),
+        ):
+            self.assertEqual(up_axis(case), axis, case)
 
     @unittest.skipUnless(vtkmodules, MISSING)
     def test_vtk_reads_the_same(self):
@@ -231,8 +344,9 @@ class FilesOfARun(ToolTest):
         listed = read_collection(self.path("out/case.pvd"))
         water = [(at, file) for at, name, file in listed if name == "water"]
         self.assertEqual([name for _, name, _ in listed[:5]], ["water", "tank", "body_ball", "probes", "gauges"])
-        self.assertEqual(len(water), 5)
-        numpy.testing.assert_allclose([at for at, _ in water], [stamp / 1e9 for stamp, _ in clouds], rtol=1e-8)
+        self.assertEqual((len(water), len(clouds)), (6, 5))
+        numpy.testing.assert_allclose([at for at, _ in water[:5]], [stamp / 1e9 for stamp, _ in clouds], rtol=1e-8)
+        self.assertAlmostEqual(water[5][0], 0.09, delta=1e-3)  # the end, which no frame is due at
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["case.pvd", "data", "view.py"])
         for (_, file), (_, cloud) in zip(water, clouds):
             arrays, _ = read_vtp(file)
@@ -269,7 +383,33 @@ class FilesOfARun(ToolTest):
         for _, _, file in listed:
             self.assertGreater(read_vtp(file)[1]["Points"], 0, file)
         for name in ("water", "tank", "body_step", "probes", "gauges"):
-            self.assertGreaterEqual(len(read_collection(self.path("out/data/%s.pvd" % name))), 20)
+            self.assertGreaterEqual(len(read_collection(self.path("out/data/%s.pvd" % name))), 11)  # replaced every ten frames
+
+    def test_have_the_surface_of_the_bag(self):
+        case = self.case(rates={"surface_bag": 50})
+        result = self.run_program(case, "--surface", "--bag", "out.bag", "--vtk", "out", "--vtk-rate", "50")
+        if result.returncode == 2 and "scripts/install --surface" in result.stderr:
+            self.skipTest("this build finds no surface: OpenVDB was not there")
+        self.assert_runs(result)
+        listed = read_collection(self.path("out/case.pvd"))
+        self.assertEqual([name for _, name, _ in listed[:4]], ["surface", "spray", "water", "tank"])
+        surface = Surface(Recording(self.path("out.bag")))
+        written = [read_vtp(file) for _, name, file in listed if name == "surface"]
+        self.assertEqual(len(written), len(surface.stamps) + 1)  # and one at the end
+        for n, (arrays, counts) in enumerate(written[:-1]):
+            corners, _ = surface.at(n)
+            self.assertGreater(counts["Polys"], 100)
+            self.assertEqual(arrays["points"].tolist(), corners.tolist())
+
+    def test_have_the_state_that_the_watchdog_stopped(self):
+        water = [{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}]  # falls faster than half of the speed of sound
+        case = self.case(duration=2.0, fluid__sound_speed=0.6, fluid__fill=water, bodies=None)
+        result = self.run_program(case, "--vtk", "out", "--vtk-rate", "1")
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        times = [at for at, name, _ in read_collection(self.path("out/case.pvd")) if name == "water"]
+        self.assertEqual((len(times), times[0]), (2, 0.0))  # the second before one is due
+        self.assertTrue(0.0 < times[1] < 0.5, times)
+        self.assertEqual([at for at, _, _ in read_collection(self.path("out/data/water.pvd"))], times)
 
     def test_what_is_wrong_is_one_sentence(self):
         os.mkdir(self.path("full"))
@@ -282,7 +422,10 @@ class FilesOfARun(ToolTest):
             (["--vtk", "/proc/out"], "cannot write files for ParaView into '/proc/out'"),
             (["--vtk-rate", "10"], "--vtk-rate needs --vtk DIR"),
             (["--vtk", "new", "--vtk-rate", "0"], "--vtk-rate must be greater than 0"),
+            (["--vtk", ""], "--vtk: the folder has no name"),
             (["--particles"], "--particles needs --bag FILE"),
+            (["--bag", "new", "--vtk", "new"], "--bag and --vtk are both 'new'; give each a name of its own"),
+            (["--save", "new", "--vtk", "./new/"], "--save and --vtk are both 'new'"),
         ):
             self.assert_refused(self.run_program(case, *arguments), words)
         self.assertEqual(self.files(), ["case.yaml", "full"])
@@ -296,6 +439,13 @@ class FilesOfARun(ToolTest):
         for _, _, file in listed:
             read_vtp(file)
         self.assertTrue({"out.bag", "out.snapshot"} <= set(self.files()))
+
+    def test_a_disk_too_small_for_the_first_frame(self):
+        disk = self.small_disk("16k")  # for view.py and not for the water
+        result = self.run_program(self.case(duration=1000.0), "--vtk", os.path.join(disk, "out"), "--vtk-rate", "1")
+        self.assert_refused(result, "cannot write the file for ParaView", "the disk is full", "the run stops at")  # long before another frame is due
+        self.assertLess(float(re.search(r"stops at ([0-9.e+-]+) s", result.stderr).group(1)), 0.9)
+        self.assertNotIn("for ParaView", result.stdout)
 
 
 if __name__ == "__main__":

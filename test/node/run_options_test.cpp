@@ -61,6 +61,8 @@ TEST(RunOptions, RefuseWhatMakesNoSense) {
   EXPECT_THROW(read({"a.yaml", "--clouds"}), Error);
   EXPECT_THROW(read({"a.yaml", "--particles"}), Error);
   EXPECT_THROW(read({"a.yaml", "--vtk-rate", "10"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--vtk", ""}), Error);
+  EXPECT_THROW(read({"a.yaml", "--vtk="}), Error);
   EXPECT_THROW(read({"a.yaml", "--vtk", "out", "--vtk-rate", "nan"}), Error);
   EXPECT_THROW(read({"a.yaml", "--surface"}), Error);
   EXPECT_THROW(read({"a.yaml", "b.yaml"}), Error);

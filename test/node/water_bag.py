@@ -91,17 +91,18 @@ def surface_markers(milliseconds):
         yield marker
 
 
-def write_bag(path, clouds=True, surface=False, case=CASE):
+def write_bag(path, clouds=True, surface=False, case=CASE, odometry=True):
     with rosbag.Bag(path, "w") as bag:
         bag.write("/wavetank/case", String(case), rospy.Time(0, 1))
         bag.write("/wavetank/markers", markers(), rospy.Time(0, 1))
         for n in range(5):
             position, angle = hull_at(50 * n)
-            odometry = stamped(Odometry(), 50 * n)
-            odometry.pose.pose.position = Point(*position.tolist())
-            odometry.pose.pose.orientation.y, odometry.pose.pose.orientation.w = math.sin(angle / 2), math.cos(angle / 2)
+            pose = stamped(Odometry(), 50 * n)
+            pose.pose.pose.position = Point(*position.tolist())
+            pose.pose.pose.orientation.y, pose.pose.pose.orientation.w = math.sin(angle / 2), math.cos(angle / 2)
             at = rospy.Time.from_sec(1 + n)
-            bag.write("/wavetank/bodies/hull/odom", odometry, at)
+            if odometry:
+                bag.write("/wavetank/bodies/hull/odom", pose, at)
             probes = ProbeArray(names=["P1", "P2"], pressures=[100.0 * n, 7.0], positions=[Point(*(ORIGIN + [0.1, 0, 0])), Point(0.5, 0, 0)])
             bag.write("/wavetank/probes", stamped(probes, 50 * n), at)
             bag.write("/wavetank/gauges", stamped(WaveGaugeArray(names=["G"], levels=[0.4 + 0.01 * n], positions=[Point(0.2, 0.3, 0)]), 50 * n), at)

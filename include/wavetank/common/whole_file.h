@@ -15,7 +15,9 @@ std::string free_path(const std::string& base, const std::string& ending);
 /// Throws Error if a file could not be written there; leaves everything as it is. `what` names it in the message: "the snapshot".
 void check_writable(const std::string& path, const std::string& what);
 
-/// Writes a file whole or not at all: under another name beside it, then renamed. An older plain file is replaced. Throws Error.
-void write_whole(const std::string& path, std::string_view content, const std::string& what);
+/// Writes a file whole or not at all: under another name beside it, then renamed. An older plain file is replaced. `until_on_disk`: returns
+/// only when the disk has it, which takes long; without, it may be lost when the machine goes down, but not when the program does. Throws
+/// Error.
+void write_whole(const std::string& path, std::string_view content, const std::string& what, bool until_on_disk = true);
 
 }  // namespace wavetank

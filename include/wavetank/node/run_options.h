@@ -17,7 +17,7 @@ struct RunOptions {
   std::string bag;                  ///< empty = none
   bool clouds = false;              ///< the free surface's particles into the bag
   bool particles = false;           ///< all particles into the bag
-  bool surface = false;             ///< the water's surface into the bag
+  bool surface = false;             ///< the water's surface into the bag and the files for ParaView
   std::string vtk;                  ///< a folder for files for ParaView; empty = none
   double vtk_rate = 20;             ///< Hz of simulated time, of those files
   std::string restore;              ///< empty = start at time 0

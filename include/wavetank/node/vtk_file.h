@@ -35,9 +35,11 @@ class VtkCollection {
   /// `part`: which of the blocks of this time; `file`: relative to the collection's folder.
   void add(double time, int part, const std::string& name, const std::string& file);
   std::string content() const;
+  int count() const { return count_; }
 
  private:
   std::string entries_;
+  int count_ = 0;
 };
 
 /// Where `&`, `<`, `>` and `"` are written as XML has them.

@@ -11,6 +11,7 @@ from wavetank import Failure
 from wavetank.meshes import package_path
 
 ANGLE = 45.0  # degrees, from the lower to the upper edge, as rviz has it
+FIXED = "<Fixed Frame>"  # of rviz, as the frame that a view follows: the one that it is drawn in
 
 
 class Camera:
@@ -27,14 +28,17 @@ def from_rviz(path):
             manager = yaml.safe_load(file)["Visualization Manager"]
         view = manager["Views"]["Current"]
         focus = numpy.array([float(view["Focal Point"][axis]) for axis in "XYZ"])
+        options = manager.get("Global Options") or {}
+        fixed, follows = options.get("Fixed Frame", "tank"), view.get("Target Frame", FIXED)
         yaw, pitch, distance = float(view["Yaw"]), float(view["Pitch"]), float(view["Distance"])
     except OSError as error:
         raise Failure("the view '%s' cannot be read: %s" % (path, error.strerror or error))
-    except (yaml.YAMLError, KeyError, TypeError, ValueError):
+    except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError):
         raise Failure("'%s' holds no view of rviz that orbits about a point (Class: rviz/Orbit)" % path)
     direction = numpy.array([numpy.cos(yaw) * numpy.cos(pitch), numpy.sin(yaw) * numpy.cos(pitch), numpy.sin(pitch)])
-    frame = manager.get("Global Options", {}).get("Fixed Frame", "tank")
-    return Camera(focus + distance * direction, focus, in_world=frame == "world")
+    if follows not in (FIXED, fixed, "", None):
+        raise Failure("the view '%s' follows the frame '%s', which cannot be drawn: let its Target Frame be %s" % (path, follows, FIXED))
+    return Camera(focus + distance * direction, focus, in_world=fixed == "world")
 
 
 def views():

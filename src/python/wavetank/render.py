@@ -1,10 +1,13 @@
 """Draws the water of a bag, with tank and bodies, as a picture or a film."""
 
 import argparse
+import contextlib
+import errno
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import numpy
 
@@ -13,8 +16,11 @@ from wavetank import camera as cameras
 from wavetank.display import INSTALL, Display
 from wavetank.recording import Recording
 from wavetank.scenery import Particles, Scenery
+from wavetank.vtk_files import write_whole
 
 FILMS, PICTURES = (".mp4", ".gif"), (".png",)
+MOST_PICTURES = 100000  # of a film, which is more than an hour
+PLAIN = {"view": None, "eye": None, "target": None, "colour": "speed", "range": None, "fps": None, "speed": 1.0}  # where nothing is said
 UNITS = {"speed": "speed (m/s)", "pressure": "pressure (Pa)"}
 
 
@@ -53,13 +59,13 @@ def read_arguments(arguments):
     parser.add_argument("--from", metavar="S", type=float, dest="begin", help="of a film: simulated time that it begins at, s")
     parser.add_argument("--to", metavar="S", type=float, dest="end", help="and ends at")
     parser.add_argument("--fps", metavar="N", type=float, help="pictures a second of a film (25; gif: 12.5)")
-    parser.add_argument("--speed", metavar="X", type=float, default=1.0, help="simulated seconds a second of a film (1)")
+    parser.add_argument("--speed", metavar="X", type=float, help="simulated seconds a second of a film (1)")
     parser.add_argument("--size", metavar="WxH", default="1280x720", help="pixels (1280x720)")
     parser.add_argument("--view", metavar="VIEW", help="of rviz: a file, or the name of one of the package's (that of the case, or all of the tank)")
     parser.add_argument("--eye", metavar="X,Y,Z", help="where the camera is, m")
     parser.add_argument("--target", metavar="X,Y,Z", help="what it looks at, m (the middle of the tank)")
     parser.add_argument("--water", choices=("surface", "particles"), help="what the water is drawn as (the surface, if the bag has it)")
-    parser.add_argument("--colour", choices=("speed", "pressure"), default="speed", help="that particles are coloured by (speed)")
+    parser.add_argument("--colour", choices=("speed", "pressure"), help="that particles are coloured by (speed)")
     parser.add_argument("--range", metavar="LOW,HIGH", help="of the colours, m/s or Pa")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
     return parser.parse_args(with_values(arguments))
@@ -104,6 +110,9 @@ def times_of(options, stamps, ending):
     fps = frames_a_second(options, ending)
     if not (options.speed > 0 and numpy.isfinite(options.speed)):
         raise Failure("--speed must be greater than 0")
+    count = float(end - begin) / options.speed * fps + 1
+    if not count < MOST_PICTURES + 1:
+        raise Failure("--speed %g makes a film of %.3g pictures, and at most %d are drawn" % (options.speed, numpy.floor(count), MOST_PICTURES))
     return nearest(numpy.arange(begin, end + 1e-9, options.speed / fps))
 
 
@@ -132,6 +141,45 @@ def value_of(cloud, name):
     return numpy.sqrt(cloud["vx"].astype(float) ** 2 + cloud["vy"].astype(float) ** 2 + cloud["vz"].astype(float) ** 2)
 
 
+def check_choices(options, ending, water):
+    """Of what is drawn and from where, before anything is: nothing that is asked for may have no effect. Fills in what is not."""
+
+    def refuse(flag, why):
+        if getattr(options, flag) is not None:
+            raise Failure("--%s %s" % (flag, why))
+
+    if ending in PICTURES:
+        for flag in ("fps", "speed"):
+            refuse(flag, "is of a film (%s), and a picture is asked for" % ", ".join(FILMS))
+    if not isinstance(water, Particles):
+        for flag in ("colour", "range"):
+            refuse(flag, "is of particles, and the water is drawn as its surface: add --water particles, if the bag has them")
+    if options.eye is None:
+        refuse("target", "needs --eye, from where it is looked at")
+    else:
+        refuse("view", "tells where the camera is, as --eye does: give one of them")
+    for flag, plain in PLAIN.items():
+        if getattr(options, flag) is None:
+            setattr(options, flag, plain)
+    if options.eye is not None:
+        options.eye = numbers(options.eye, 3, "--eye")
+    if options.target is not None:
+        options.target = numbers(options.target, 3, "--target")
+    if options.range is not None:
+        low, high = numbers(options.range, 2, "--range")
+        if not low < high:
+            raise Failure("--range '%s': the first must be less than the second" % options.range)
+        options.range = (low, high)
+
+
+def colour_range(values, starts_at_zero):
+    """(low, high) of a scale that nearly all values lie in, as wide as reads well; from 0 on, or from below where values are."""
+    values = values[numpy.isfinite(values)]
+    low, high = numpy.percentile(values, [1, 99]) if len(values) else (0.0, 1.0)
+    low = 0.0 if starts_at_zero else min(0.0, float(low))
+    return low, low + rounded_up(max(float(high) - low, 1e-6))
+
+
 def rounded_up(value):
     """To a number that reads well."""
     step = 0.4 * 10.0 ** numpy.floor(numpy.log10(value))  # so that a quarter of it does, too
@@ -145,38 +193,49 @@ def find_ffmpeg():
     return program
 
 
+# Each picture with a palette of its own: one for all of them would have ffmpeg keep them all until the end.
+GIF_COLOURS = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4"
+
+
 class Film:
     """Pictures one after the other into a file, by ffmpeg."""
 
     def __init__(self, path, ending, size, fps):
         self._path, self._part = path, path + ".part" + ending
-        command = [find_ffmpeg(), "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
+        self._errors = tempfile.TemporaryFile()  # not a pipe, which nobody would empty while pictures are drawn
+        command = [find_ffmpeg(), "-loglevel", "error", "-xerror", "-y"]
+        command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", "%g" % fps, "-i", "-"]
         if ending == ".gif":
-            command += ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4"]
+            command += ["-filter_complex", GIF_COLOURS]
         else:
             command += ["-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
-        self._process = subprocess.Popen(command + [self._part], stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+        command.append("file:" + self._part)  # or else a colon in the name makes a protocol of it
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=self._errors, start_new_session=True)
 
     def add(self, picture):
         try:
             self._process.stdin.write(picture.tobytes())
         except BrokenPipeError:
-            self._fail()
-
-    def _fail(self):
-        _, errors = self._process.communicate()
-        self.discard()
-        lines = errors.decode("utf-8", "replace").strip().splitlines() or ["ffmpeg ends with exit code %d" % self._process.returncode]
-        raise Failure("cannot write '%s': %s" % (self._path, lines[-1]))
+            self._end(is_whole=False)
 
     def end(self):
+        """The file gets its name if all of it was written."""
         try:
             self._process.stdin.close()
         except BrokenPipeError:
-            pass
-        self._process.stdin = None
-        if self._process.wait() != 0:
-            self._fail()
+            self._end(is_whole=False)
+        self._end(is_whole=True)
+
+    def _end(self, is_whole):
+        code = self._process.wait()
+        self._errors.seek(0)
+        errors = self._errors.read().decode("utf-8", "replace").strip()
+        if code != 0 or errors or not is_whole:  # of a full disk it may tell and yet end with 0
+            self.discard()
+            reason = (
+                "the disk is full" if os.strerror(errno.ENOSPC) in errors else errors.splitlines()[-1] if errors else "ffmpeg ends with exit code %d" % code
+            )
+            raise Failure("cannot write '%s': %s" % (self._path, reason))
         os.replace(self._part, self._path)
 
     def discard(self):
@@ -184,6 +243,11 @@ class Film:
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
+        try:
+            self._process.stdin.close()
+        except OSError:
+            pass  # what it did not take
+        self._errors.close()
         if os.path.exists(self._part):
             os.remove(self._part)
 
@@ -201,9 +265,7 @@ def write_png(path, picture):
     writer.SetInputData(image)
     writer.WriteToMemoryOn()
     writer.Write()
-    with open(path + ".part", "wb") as file:
-        file.write(vtk_to_numpy(writer.GetResult()).tobytes())
-    os.replace(path + ".part", path)
+    write_whole(path, [vtk_to_numpy(writer.GetResult()).tobytes()])
 
 
 def outer_walls(corners):
@@ -260,9 +322,8 @@ class Drawing:
 
     def _wanted_camera(self, low, high, size):
         options = self._options
-        if options.eye:
-            target = numbers(options.target, 3, "--target") if options.target else (low + high) / 2
-            eye = numbers(options.eye, 3, "--eye")
+        if options.eye is not None:
+            eye, target = options.eye, options.target if options.target is not None else (low + high) / 2
             if numpy.allclose(eye, target):
                 raise Failure("--eye and --target are one place: there is nothing to see")
             upright = numpy.linalg.norm((eye - target)[:2]) > 1e-3 * numpy.linalg.norm(eye - target)
@@ -316,16 +377,11 @@ class Drawing:
     def _range(self):
         """Of the colours, the same in all pictures: nearly all values that a few of the times have."""
         if self._options.range:
-            low, high = numbers(self._options.range, 2, "--range")
-            if not low < high:
-                raise Failure("--range '%s': the first must be less than the second" % self._options.range)
-            return low, high
+            return self._options.range
         count = len(self._water.stamps)
         values = [value_of(self._water.cloud(n), self._options.colour) for n in sorted(set(numpy.linspace(0, count - 1, 12).astype(int)))]
         values = numpy.concatenate(values) if values else numpy.zeros(0)
-        high = float(numpy.percentile(values, 99)) if len(values) else 1.0
-        low = 0.0 if self._options.colour == "speed" else min(0.0, float(numpy.percentile(values, 1)) if len(values) else 0.0)
-        return low, rounded_up(max(high, low + 1e-6))
+        return colour_range(values, self._options.colour == "speed")
 
     def draw(self, n):
         stamp = int(self._water.stamps[n])
@@ -353,32 +409,44 @@ def main(arguments):
     water = scenery.particles() if options.water == "particles" else scenery.water()
     if options.water == "surface" and isinstance(water, Particles):
         raise Failure("'%s' holds no surface of the water: write it with wavetank_run --surface" % options.bag)
+    check_choices(options, ending, water)
     times = times_of(options, water.stamps, ending)
     # told before anything is drawn
     if ending in FILMS:
         find_ffmpeg()
     from wavetank import picture  # noqa: F401: imports VTK
 
-    try:
-        with Display():
-            write(options, ending, size, Drawing(scenery, water, options, size), times)
-    except OSError as error:
-        raise Failure("cannot write '%s': %s" % (options.output, error.strerror or error))
+    with Display():
+        write(options, ending, size, Drawing(scenery, water, options, size), times)
     print("wrote '%s'" % options.output)
+
+
+@contextlib.contextmanager
+def told_of(path):
+    """What the disk refuses becomes a sentence."""
+    try:
+        yield
+    except OSError as error:
+        raise Failure("cannot write '%s': %s" % (path, "the disk is full" if error.errno == errno.ENOSPC else error.strerror or error))
 
 
 def write(options, ending, size, drawing, times):
     try:
         if ending in PICTURES:
-            write_png(options.output, drawing.draw(times[0]))
+            picture = drawing.draw(times[0])
+            with told_of(options.output):
+                write_png(options.output, picture)
             return
         film = Film(options.output, ending, size, frames_a_second(options, ending))
         try:
             for count, n in enumerate(times):
-                film.add(drawing.draw(n))
+                picture = drawing.draw(n)
+                with told_of(options.output):
+                    film.add(picture)
                 if sys.stdout.isatty():
                     print("\rpicture %d of %d" % (count + 1, len(times)), end="", flush=True)
-            film.end()
+            with told_of(options.output):
+                film.end()
         finally:
             film.discard()
             if sys.stdout.isatty():

@@ -1,5 +1,7 @@
 """What a bag shows: tank and bodies as meshes where they are, the water as a surface or as particles."""
 
+import sys
+
 import numpy
 
 from wavetank import Failure
@@ -78,7 +80,8 @@ class Shape:
 
 class Scenery:
     """title; case: the case as read from YAML; meshes, edges: Shape by the name of its owner; probes: points as Shape, in the case's order, as far as the
-    bag has its markers; tank_pose: of a tank that moves, else None."""
+    bag has its markers, None for one on a body whose poses it does not have; tank_pose: of a tank that moves, else None. What cannot be placed is told once
+    on standard error."""
 
     def __init__(self, recording):
         self._recording = recording
@@ -86,9 +89,11 @@ class Scenery:
         case = read_yaml(self.text)
         self.case = case if isinstance(case, dict) else {}
         self.title = str(self.case.get("title", ""))
-        self.poses = {name.split("/")[1]: Pose(recording.table(name)) for name in recording.names if name.endswith("/odom")}
+        odometries = {name.split("/")[1]: recording.table(name) for name in recording.names if name.endswith("/odom")}
+        self.poses = {name: Pose(table) for name, table in odometries.items() if len(table)}
         self.tank_pose = self.poses.get(TANK)
         self.meshes, self.edges, self.probes = {}, {}, []
+        self._lost = set()  # bodies that move in a way the bag does not tell
         message = recording.first("markers", MARKERS)
         for marker in message["markers"] if message else []:
             if marker["action"] == ADD:
@@ -97,8 +102,17 @@ class Scenery:
     def _add(self, marker):
         group, number = marker["ns"], int(marker["id"])
         body = marker["header"]["frame_id"].partition("/bodies/")[2]  # that it is drawn in the frame of
+        is_lost = bool(body) and body not in self.poses
+        if is_lost and body not in self._lost:
+            self._lost.add(body)
+            print(
+                "warning: '%s' does not tell where body '%s' is: it has no bodies/%s/odom; left out, with its probes" % (self._recording.path, body, body),
+                file=sys.stderr,
+            )
         if group == "probes":
-            self.probes.append(Shape(group, "Verts", placed(marker, numpy.zeros((1, 3))), self.poses.get(body)))
+            self.probes.append(None if is_lost else Shape(group, "Verts", placed(marker, numpy.zeros((1, 3))), self.poses.get(body)))
+        if is_lost:
+            return
         if group not in ("tank", "tank edges", "bodies", "body edges"):
             return
         names = [each["name"] for each in self.case.get("bodies") or []]
@@ -121,18 +135,25 @@ class Scenery:
 
     def water(self):
         """What the bag has of it: a Surface, or else Particles. Raises Failure."""
-        surface = Surface(self._recording)
-        if len(surface.stamps):
-            return surface
-        return self.particles()
+        return self.waters()[0]
+
+    def waters(self):
+        """The same water as often as the bag has it: a Surface, and Particles; one of them at least. Raises Failure."""
+        clouds = (Particles(self._recording, name) for name in CLOUDS if self._recording.has_cloud(name))
+        particles = [cloud for cloud in clouds if len(cloud.stamps)][:1]
+        found = [each for each in (Surface(self._recording),) if len(each.stamps)] + particles
+        if not found:
+            raise Failure(
+                "'%s' holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds" % self._recording.path
+            )
+        return found
 
     def particles(self):
-        for name in CLOUDS:
-            if self._recording.has_cloud(name):
-                return Particles(self._recording, name)
-        raise Failure(
-            "'%s' holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds" % self._recording.path
-        )
+        """Likewise Particles alone."""
+        for each in self.waters():
+            if isinstance(each, Particles):
+                return each
+        raise Failure("'%s' holds no particles of the water: write them with wavetank_run --particles or --clouds" % self._recording.path)
 
 
 class Particles:

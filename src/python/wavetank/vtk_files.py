@@ -4,6 +4,7 @@ wavetank_run --vtk writes the same (src/node/vtk_recorder.cpp); docs/pictures.md
 
 import os
 import shutil
+import time
 import zlib
 from xml.sax.saxutils import escape
 
@@ -17,6 +18,7 @@ COLLECTION, VIEW, DATA = "case.pvd", "view.py", "data"
 SCRIPT = "package://wavetank/config/paraview/view.py"
 RENAMED = {"shepard": "gamma"}
 PACKED = ("mass", "id", "gamma", "surface")  # few different values, or such that differ little; other numbers pack badly, and cost time
+LISTING_PERIOD = 5.0  # s of wall time between two writings of the collections
 CELLS = {"Verts": 1, "Lines": 2, "Polys": 3}
 
 
@@ -110,12 +112,14 @@ class Folder:
             os.makedirs(os.path.join(path, DATA))
         except OSError as error:
             raise Failure(what + (error.strerror or str(error)))
-        self._all, self._parts, self._still = Collection(), {}, set()
-        self._time, self._count, self._part = 0.0, -1, 0
+        self._all, self._parts, self._places, self._still = Collection(), {}, {}, set()
+        self._time, self._count, self._listed = 0.0, -1, time.monotonic()
 
-    def begin(self, time):
-        """The frame of a time, s."""
-        self._time, self._part, self._count = time, 0, self._count + 1
+    def begin(self, stamp):
+        """The frame of a time, s. What there was before is listed from time to time."""
+        self._time, self._count = stamp, self._count + 1
+        if time.monotonic() - self._listed > LISTING_PERIOD:
+            self.write_collections()
 
     def write(self, name, data):
         """Of this time alone."""
@@ -130,10 +134,12 @@ class Folder:
         if data is not None:
             data.write(os.path.join(self.path, DATA, file))
         self._parts.setdefault(name, Collection()).add(self._time, 0, name, file)
-        self._all.add(self._time, self._part, name, DATA + "/" + file)
-        self._part += 1
+        # a name keeps its place in all frames
+        self._all.add(self._time, self._places.setdefault(name, len(self._places)), name, DATA + "/" + file)
 
-    def end(self):
+    def write_collections(self):
+        """Replaces the collections: ParaView sees what these have."""
+        self._listed = time.monotonic()
         for name, collection in self._parts.items():
             collection.write(os.path.join(self.path, DATA, name + ".pvd"))
         self._all.write(os.path.join(self.path, COLLECTION))
@@ -158,7 +164,9 @@ class Readings:
     def at(self, stamp):
         row = int(numpy.searchsorted(self._table.stamps, stamp, side="right")) - 1
         values = {column: float(samples[max(row, 0)]) for column, samples in self._table.columns.items()}
-        points = numpy.array([self._place(column, value, stamp) for column, value in values.items()], dtype=float).reshape(-1, 3)
+        places = {column: self._place(column, value, stamp) for column, value in values.items()}
+        values = {column: value for column, value in values.items() if places[column] is not None}
+        points = numpy.array([places[column] for column in values], dtype=float).reshape(-1, 3)
         return PolyData(points, {self._value: numpy.array(list(values.values())), "name": list(values)}, "Verts")
 
 
@@ -169,12 +177,14 @@ def readings_of(recording, scenery):
         drawn = dict(zip(table.columns, scenery.probes))
 
         def place_of_probe(name, value, stamp):
-            return drawn[name].at(stamp)[0] if name in drawn else numpy.array(table.positions[name])
+            if name not in drawn:
+                return numpy.array(table.positions[name])
+            return None if drawn[name] is None else drawn[name].at(stamp)[0]
 
         found.append(Readings("probes", "pressure", table, place_of_probe))
     if "gauges" in recording.names:
         levels = recording.table("gauges")
-        axis = up_axis(scenery)
+        axis = up_axis(scenery.case)
 
         def place_on_surface(name, value, stamp):
             place = numpy.array(levels.positions[name])
@@ -185,50 +195,50 @@ def readings_of(recording, scenery):
     return [each for each in found if len(each._table)]
 
 
-def up_axis(scenery):
-    """Along which levels are told: the axis nearest to gravity's, or z."""
-    gravity = scenery.case.get("gravity")
-    if not isinstance(gravity, list) or not any(gravity):
+def up_axis(case):
+    """Along which levels are told: 0, 1 or 2, as src/scene/upward.cpp has it: the axis nearest to that of the gravity that the water can rest in, which is
+    without the parts along which the tank repeats itself; of two that are alike z before y and y before x, and z without any."""
+    tank = case.get("tank")
+    periodic = tank.get("periodic") if isinstance(tank, dict) else None
+    gravity = case.get("gravity")
+    if not isinstance(gravity, list) or len(gravity) not in (2, 3):
         return 2
-    gravity = [gravity[0], 0.0, gravity[1]] if len(gravity) == 2 else gravity
-    return int(numpy.argmax(numpy.abs(numpy.array(gravity, dtype=float))))
+    gravity = numpy.abs(numpy.array([gravity[0], 0.0, gravity[1]] if len(gravity) == 2 else gravity, dtype=float))
+    for axis, name in enumerate("xyz"):
+        if name in (periodic or []) or (name == "y" and case.get("dimensions") == 2):
+            gravity[axis] = 0.0
+    return max((2, 1, 0), key=lambda axis: gravity[axis])  # the first of the greatest
 
 
 def write_vtk(recording, path):
     """Writes all of a bag that can be seen, at the times that it has of the water, and returns the file to open."""
     scenery = Scenery(recording)
-    water = [each for each in waters_of(recording, scenery)]
-    folder = Folder(path)
+    water, readings = scenery.waters(), readings_of(recording, scenery)
     script = package_path(SCRIPT)
     if script is None or not os.path.isfile(script):
         raise Failure("the package wavetank is not to be found, whose view for ParaView goes beside the files: source setup.bash")
+    folder = Folder(path)  # last, so that what is wrong leaves none that is in the way of another try
     shutil.copyfile(script, os.path.join(path, VIEW))
-    readings = readings_of(recording, scenery)
-    for stamp in sorted(set().union(*(each.stamps.tolist() for each in water))):
-        folder.begin(stamp / 1e9)
-        for each in water:
-            write_water(folder, each, stamp)
-        for shape in scenery.shapes():
-            name = shape.name if shape.name == TANK else "body_" + shape.name
-            if shape.pose is None:
-                folder.write_still(name, PolyData(shape.points, {}, shape.kind))
-            else:
-                folder.write(name, PolyData(shape.at(stamp), {}, shape.kind))
-        for each in readings:
-            folder.write(each.name, each.at(stamp))
-        folder.end()
+    try:
+        for stamp in sorted(set().union(*(each.stamps.tolist() for each in water))):
+            write_frame(folder, scenery, water, readings, stamp)
+    finally:
+        folder.write_collections()
     return os.path.join(path, COLLECTION)
 
 
-def waters_of(recording, scenery):
-    surface = Surface(recording)
-    if len(surface.stamps):
-        yield surface
-    try:
-        yield scenery.particles()
-    except Failure:
-        if not len(surface.stamps):
-            raise
+def write_frame(folder, scenery, water, readings, stamp):
+    folder.begin(stamp / 1e9)
+    for each in water:
+        write_water(folder, each, stamp)
+    for shape in scenery.shapes():
+        name = shape.name if shape.name == TANK else "body_" + shape.name
+        if shape.pose is None:
+            folder.write_still(name, PolyData(shape.points, {}, shape.kind))
+        else:
+            folder.write(name, PolyData(shape.at(stamp), {}, shape.kind))
+    for each in readings:
+        folder.write(each.name, each.at(stamp))
 
 
 def write_water(folder, water, stamp):
