@@ -57,9 +57,12 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
 
 TankNode::~TankNode() {
   timer_.stop();
+  loop_->stop();  // first: a service that is being called ends only then
   services_.clear();
   loop_.reset();
 }
+
+void TankNode::stop() { loop_->stop(); }
 
 int TankNode::finish() {
   timer_.stop();

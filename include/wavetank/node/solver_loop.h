@@ -62,7 +62,8 @@ class SolverLoop {
   SolverLoop(const SolverLoop&) = delete;
   SolverLoop& operator=(const SolverLoop&) = delete;
 
-  /// Stops after the step in progress, abandons a start in progress; returns when the hook `ended` has.
+  /// Stops after the step in progress, abandons a start in progress; returns when the hook `ended` has. Whoever waits for an answer gets
+  /// one. Not to be called by two threads at once; the second time it does nothing.
   void stop();
 
   /// Once it is answered, no step is in progress. During the start: the run will begin paused, or not.
