@@ -306,6 +306,7 @@ Reply SolverLoop::reset() {
     cut_advance_short("the simulation was reset");
     const SolverState last = simulation.state();
     simulation.reset();
+    lock_step_ = LockStep();
     hooks_.restarted(last);
     pace_known_ = false;
     pass_on_samples();

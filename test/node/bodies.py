@@ -456,6 +456,7 @@ class Bodies(unittest.TestCase):
 
     def test_12_a_tank_is_driven_through_the_world(self):
         self.assertEqual(set(self.ear.stamps(CARRIAGE)) - {0}, set(), "~paused: it has not moved yet")
+        self.a_reset_forgets_what_was_asked_for()
         heard = len(self.ear.all(CARRIAGE))
         self.call("reset", node="carriage")
         self.ear.wait(lambda: len(self.ear.all(CARRIAGE)) > heard, "the first pose after a reset")
@@ -478,6 +479,19 @@ class Bodies(unittest.TestCase):
         self.assertEqual(transform.header.frame_id, "world")
         self.assertEqual(transform.header.stamp, last.header.stamp)
         self.assertEqual(transform.transform.translation.x, last.pose.pose.position.x)
+
+    def a_reset_forgets_what_was_asked_for(self):
+        """Or a span would count from there, where steps bring the tank to the same time again."""
+        advance = rospy.ServiceProxy("/carriage/advance", Advance)
+        asked = 1e-5  # s, much less than a step
+        first = advance(asked).time
+        self.assertGreater(first, 2.0 * asked)
+        self.call("reset", node="carriage")
+        self.call("step", node="carriage")
+        self.assertEqual(advance(0.0).time, first)
+        self.call("reset", node="carriage")
+        self.call("step", node="carriage")
+        self.assertGreater(advance(first - asked).time, first, "a span from where it stands, not from the instant that was asked for before the reset")
 
     def test_13_a_cloud_of_a_tank_that_moves_can_be_placed_in_the_world_while_it_stands(self):
         self.assertNotIn(self.ear.last(CARRIAGE).header.stamp.to_nsec(), self.stamps_of_clouds(), "no sample of poses is of the cloud's time")
