@@ -181,8 +181,10 @@ class Handle:
                 return
             if self.held_at is not None and time.monotonic() - self.heard > SILENCE:
                 self.let_go()
-            if self.held_at is None:
-                self.server.setPose(self.name, self.body.pose)
+            pose = self.body.pose if self.held_at is None else None
+        # Without the lock: the server calls feel() under its own.
+        if pose is not None:
+            self.server.setPose(self.name, pose)
 
     def marker(self):
         marker = InteractiveMarker()
