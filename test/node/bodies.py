@@ -423,6 +423,20 @@ class Bodies(unittest.TestCase):
         self.ear.wait(lambda: len(self.transforms("tank/bodies/box")) > before, "the last pose", 5)
         self.assertEqual(self.transforms("tank/bodies/box")[-1].header.stamp, self.ear.last(BOX).header.stamp)
 
+    def test_10a_handles_that_come_to_a_paused_tank_are_on_its_bodies(self):
+        remaps = ["/wavetank/handles/%s:=/late/%s" % (topic, topic) for topic in ("update", "update_full", "feedback")]
+        handles = subprocess.Popen([roslib.packages.find_node("wavetank", "handles")[0], "__name:=late"] + remaps)
+        found = {}
+        subscriber = rospy.Subscriber("/late/update_full", InteractiveMarkerInit, lambda init: found.update((each.name, each) for each in init.markers))
+        try:
+            self.ear.wait(lambda: {"box", "trolley", "paddle"} <= set(found), "a handle on each body", 20)
+        finally:
+            subscriber.unregister()
+            handles.send_signal(signal.SIGINT)
+            handles.wait(timeout=15)
+        self.assertEqual(numbers(found["box"].pose), numbers(self.ear.last(BOX).pose.pose))
+        self.assertEqual(found["box"].header.frame_id, "tank")
+
     def test_11_reset_brings_the_bodies_back_and_the_run_repeats_itself(self):
         poses = self.ear.all(BOX)
         last = seconds(poses[-1])

@@ -12,6 +12,7 @@ from interactive_markers.menu_handler import MenuHandler
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, InteractiveMarkerFeedback, Marker, MarkerArray
 
 from wavetank.names import level_of
@@ -135,8 +136,8 @@ class Driver:
 class Handle:
     """A body's interactive marker: with the body until it is held, then what the body is drawn to. Nothing is sent of one that nobody holds."""
 
-    def __init__(self, server, menu, name, topic, sender, size, plane):
-        self.server, self.name, self.sender, self.size, self.plane = server, name, sender, size, plane
+    def __init__(self, server, menu, name, topic, frame, sender, size, plane):
+        self.server, self.name, self.frame, self.sender, self.size, self.plane = server, name, frame, sender, size, plane
         self.lock = threading.RLock()
         self.body = None  # none has been heard of yet
         self.held_at = None  # a pose; none: nobody holds it
@@ -145,16 +146,27 @@ class Handle:
         self.menu = menu
         rospy.Subscriber(topic + "/odom", Odometry, self.hear, queue_size=1, tcp_nodelay=True)
 
-    def hear(self, odometry):
+    def hear(self, odometry, only_first=False):
         with self.lock:
             begins = self.body is None
+            if only_first and not begins:
+                return
             self.body = Body(odometry)
-            if begins:
-                self.server.insert(self.marker(), self.feel)
-                self.menu.apply(self.server, self.name)
-                self.server.applyChanges()
             if self.held_at is not None:
                 self.sender.send(self.body, self.held_at, self.turns)
+        if begins:  # without the lock: the server calls feel() under its own
+            self.server.insert(self.marker(), self.feel)
+            self.menu.apply(self.server, self.name)
+            self.server.applyChanges()
+
+    def find(self, transforms):
+        """Its first pose, of a tank that stands: late listeners get the last transforms, but no odometry, which goes on from there."""
+        for transform in transforms.transforms:
+            if transform.child_frame_id != self.frame:
+                continue
+            odometry = Odometry(header=transform.header, child_frame_id=self.frame)
+            odometry.pose.pose = Pose(transform.transform.translation, transform.transform.rotation)
+            self.hear(odometry, only_first=True)
 
     def feel(self, feedback):
         with self.lock:
@@ -182,7 +194,6 @@ class Handle:
             if self.held_at is not None and time.monotonic() - self.heard > SILENCE:
                 self.let_go()
             pose = self.body.pose if self.held_at is None else None
-        # Without the lock: the server calls feel() under its own.
         if pose is not None:
             self.server.setPose(self.name, pose)
 
@@ -280,8 +291,11 @@ def put_handles(server, tank, greatest_force):
             continue
         places, _ = edges_of(drawing, "body edges", number)
         size = float(numpy.linalg.norm(numpy.ptp(places, axis=0)))
-        handles.append(Handle(server, menu, body["name"], topic, sender, size, case["dimensions"] == 2))
+        body_frame = "%s/bodies/%s" % (case.get("world_frame", "tank"), level_of(body["name"]))
+        handles.append(Handle(server, menu, body["name"], topic, body_frame, sender, size, case["dimensions"] == 2))
     server.applyChanges()
+    if handles:
+        rospy.Subscriber("/tf", TFMessage, lambda transforms: [handle.find(transforms) for handle in handles], queue_size=100, tcp_nodelay=True)
     return handles
 
 
