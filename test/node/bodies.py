@@ -437,6 +437,14 @@ class Bodies(unittest.TestCase):
         self.assertEqual(numbers(found["box"].pose), numbers(self.ear.last(BOX).pose.pose))
         self.assertEqual(found["box"].header.frame_id, "tank")
 
+    def test_10b_handles_refuse_a_force_that_is_none(self):
+        for force in ("0", "-1", "nan", "inf", "much"):
+            command = [roslib.packages.find_node("wavetank", "handles")[0], "--force=" + force]
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("--force", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
     def test_11_reset_brings_the_bodies_back_and_the_run_repeats_itself(self):
         poses = self.ear.all(BOX)
         last = seconds(poses[-1])

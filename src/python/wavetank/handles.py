@@ -1,10 +1,12 @@
 """Handles in rviz on the bodies of a running tank: interactive markers that pull free bodies, drive commanded ones, and pause, step and reset the run."""
 
 import argparse
+import math
 import threading
 import time
 
 import numpy
+import rosgraph
 import rospy
 from geometry_msgs.msg import InertiaStamped, Pose, Twist, WrenchStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
@@ -15,6 +17,7 @@ from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, InteractiveMarkerFeedback, Marker, MarkerArray
 
+from wavetank import Failure
 from wavetank.names import level_of
 from wavetank.runs import read_yaml
 
@@ -304,6 +307,12 @@ def main(arguments):
     parser.add_argument("--tank", default="/wavetank", help="namespace of the wave tank's node (default /wavetank)")
     parser.add_argument("--force", type=float, help="greatest force on a free body, N (2-D: N/m); half of its weight unless set")
     options = parser.parse_args(arguments)
+    if options.force is not None and not (math.isfinite(options.force) and options.force > 0):
+        raise Failure("--force must be a finite number of newtons greater than 0, not %g" % options.force)
+    if not rosgraph.is_master_online():
+        raise Failure("there is no ROS master; start a tank first, as in: roslaunch wavetank floating_box.launch rviz:=true handles:=true")
+    # By the clock on the wall: the server of the markers takes a hand's word only a second after another's, and the simulated time may stand still.
+    rospy.init_node("handles", anonymous=True, disable_rostime=True)
     tank = options.tank.rstrip("/")
     server = InteractiveMarkerServer(tank + "/handles")
     try:
