@@ -387,12 +387,12 @@ class Bodies(unittest.TestCase):
         inertia = rospy.wait_for_message("/wavetank/bodies/box/inertia", InertiaStamped, 5.0).inertia
         self.assertAlmostEqual(inertia.m, 500.0 * 0.24 * 0.1, 9)
         handles = {marker.name: marker for marker in rospy.wait_for_message("/wavetank/handles/update_full", InteractiveMarkerInit, 5.0).markers}
-        self.assertEqual(set(handles), {"box", "trolley", "paddle", "run"})
-        self.assertEqual([entry.title for entry in handles["box"].menu_entries], ["Pause", "Go on", "Step", "Reset"])
+        self.assertEqual(set(handles), {"bodies/box", "bodies/trolley", "bodies/paddle", "run"})
+        self.assertEqual([entry.title for entry in handles["bodies/box"].menu_entries], ["Pause", "Go on", "Step", "Reset"])
         self.assertEqual(self.by_hand(WRENCH), [], "a handle that nobody holds")
         box = self.ear.last(BOX).pose.pose.position
         goal = box.x + (0.5 if box.x < 0.55 else -0.5)
-        with self.held("box", (goal, 0, box.z)):
+        with self.held("bodies/box", (goal, 0, box.z)):
             self.run_until(self.time() + 3.0)
         missed = self.ear.last(BOX).pose.pose.position.x - goal
         sent = self.by_hand(WRENCH)
@@ -407,7 +407,7 @@ class Bodies(unittest.TestCase):
 
     def test_09c_a_hand_in_rviz_drives_the_trolley_and_steps_the_run(self):
         at = self.ear.last(TROLLEY).pose.pose.position
-        with self.held("trolley", (at.x - 0.05, 0, at.z)):
+        with self.held("bodies/trolley", (at.x - 0.05, 0, at.z)):
             self.run_until(self.time() + 0.1)
             self.assertAlmostEqual(min(speed(odometry) for odometry in self.ear.all(TROLLEY)[-50:]), -2.0 * 0.05, delta=0.02, msg="twice the way a second")
             self.run_until(self.time() + 1.5)
@@ -429,13 +429,13 @@ class Bodies(unittest.TestCase):
         found = {}
         subscriber = rospy.Subscriber("/late/update_full", InteractiveMarkerInit, lambda init: found.update((each.name, each) for each in init.markers))
         try:
-            self.ear.wait(lambda: {"box", "trolley", "paddle"} <= set(found), "a handle on each body", 20)
+            self.ear.wait(lambda: {"bodies/box", "bodies/trolley", "bodies/paddle", "run"} == set(found), "a handle on each body", 20)
         finally:
             subscriber.unregister()
             handles.send_signal(signal.SIGINT)
             handles.wait(timeout=15)
-        self.assertEqual(numbers(found["box"].pose), numbers(self.ear.last(BOX).pose.pose))
-        self.assertEqual(found["box"].header.frame_id, "tank")
+        self.assertEqual(numbers(found["bodies/box"].pose), numbers(self.ear.last(BOX).pose.pose))
+        self.assertEqual(found["bodies/box"].header.frame_id, "tank")
 
     def test_10b_handles_refuse_a_force_that_is_none(self):
         for force in ("0", "-1", "nan", "inf", "much"):

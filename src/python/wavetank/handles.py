@@ -295,7 +295,7 @@ def put_handles(server, tank, greatest_force):
         places, _ = edges_of(drawing, "body edges", number)
         size = float(numpy.linalg.norm(numpy.ptp(places, axis=0)))
         body_frame = "%s/bodies/%s" % (case.get("world_frame", "tank"), level_of(body["name"]))
-        handles.append(Handle(server, menu, body["name"], topic, body_frame, sender, size, case["dimensions"] == 2))
+        handles.append(Handle(server, menu, "bodies/" + body["name"], topic, body_frame, sender, size, case["dimensions"] == 2))
     server.applyChanges()
     if handles:
         rospy.Subscriber("/tf", TFMessage, lambda transforms: [handle.find(transforms) for handle in handles], queue_size=100, tcp_nodelay=True)
