@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -97,7 +98,11 @@ class PythonSimulation {
   /// The simulation is one thread's for as long as this lives.
   class Turn {
    public:
-    explicit Turn(std::atomic_flag& taken) : taken_(taken) {
+    Turn(std::atomic_flag& taken, pid_t process) : taken_(taken) {
+      if (getpid() != process)
+        throw Error(
+            "the tank belongs to the process that made it, and this one was forked from it: make the tank here, in a process that is "
+            "started anew (multiprocessing: the start method 'spawn')");
       if (taken.test_and_set()) throw Error("the tank is at work in another thread: wait until that is done");
     }
     ~Turn() { taken_.clear(); }
@@ -117,7 +122,7 @@ class PythonSimulation {
   /// What takes its time: without the interpreter, which looks for signals now and then.
   template <class What>
   void work(What what) {
-    const Turn turn(taken_);
+    const Turn turn(taken_, process_);
     try {
       const py::gil_scoped_release others_may_run;
       SignalWatch watch;
@@ -135,7 +140,7 @@ class PythonSimulation {
   /// What takes none.
   template <class What>
   auto look(What what) {
-    const Turn turn(taken_);
+    const Turn turn(taken_, process_);
     return what(steered());
   }
 
@@ -172,6 +177,10 @@ class PythonSimulation {
   }
   void close() {
     if (!steered_) return;
+    if (getpid() != process_) {
+      (void)steered_.release();  // nothing of a device works after a fork, and what would be waited for is not there
+      return;
+    }
     work([&] { steered_.reset(); });
   }
 
@@ -265,6 +274,7 @@ class PythonSimulation {
   }
 
  private:
+  const pid_t process_ = getpid();  ///< that made it; a fork has none of the threads behind the device
   std::atomic_flag taken_ = ATOMIC_FLAG_INIT;
   SignalWatch* watch_ = nullptr;
   std::unique_ptr<SteeredSimulation> steered_;

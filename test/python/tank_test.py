@@ -220,6 +220,22 @@ class Spans(FlyingTest):
         self.assertGreater(counted[0], 10)
         self.assertIn("another thread", refusals[0])
 
+    def test_are_refused_in_a_process_that_was_forked(self):
+        child = os.fork()
+        if child == 0:  # leaves by _exit only: the rest of the tests is the parent's
+            signal.alarm(30)  # rather than wait for ever, where it is not refused
+            code = 1
+            try:
+                self.assert_refused(["forked", "spawn"], self.tank.advance, 0.01)
+                self.assert_refused(["forked", "spawn"], self.tank.particles)
+                self.tank.close()
+                code = 0
+            finally:
+                os._exit(code)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.tank.advance(0.01)
+        self.assertGreaterEqual(self.tank.time, 0.01)
+
     def test_are_ended_by_ctrl_c(self):
         timer = threading.Timer(0.3, signal.pthread_kill, (threading.main_thread().ident, signal.SIGINT))
         timer.start()
