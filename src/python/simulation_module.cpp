@@ -251,7 +251,7 @@ class PythonSimulation {
   }
 
   /// Force and torque about the centre of mass, in the body's axes if it turns with it, else in the tank's as they stand now; for
-  /// `duration`, s of simulated time.
+  /// `duration`, s of simulated time, and one step at least: it acts in the steps whose middle lies in it.
   void push(std::size_t owner, const Numbers& force, const Numbers& torque, bool turns_with_body, double duration) {
     look([&](SteeredSimulation& steered) {
       const Quaterniond tank = steered.simulation().bodies().state(0).orientation;
@@ -259,7 +259,8 @@ class PythonSimulation {
       wrench.turns_with_body = turns_with_body;
       wrench.force = turns_with_body ? vector_of(force) : Vector3d(tank * vector_of(force));
       wrench.torque = turns_with_body ? vector_of(torque) : Vector3d(tank * vector_of(torque));
-      wrench.until = steered.simulation().state().time + duration;
+      const SolverState state = steered.simulation().state();
+      wrench.until = state.time + std::max(duration, state.time_step);
       steered.simulation().set_outside_wrench(owner, wrench);
     });
   }

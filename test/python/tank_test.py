@@ -279,6 +279,14 @@ class Bodies(FlyingTest):
         self.tank.advance(0.05)
         self.assertAlmostEqual(self.box.velocity[0], 5.0 * 0.01, delta=5.0 * 2 * self.tank.time_step)
 
+    def test_are_pushed_for_one_step_at_least(self):
+        self.box.push(force=[5.0 * self.box.mass, 0, 0], duration=1e-7)
+        self.tank.advance(1e-7)
+        first = self.tank.time
+        self.assertEqual(self.tank.step, 1)
+        self.tank.advance(0.01)
+        self.assertAlmostEqual(self.box.velocity[0], 5.0 * first, 9)
+
     def test_follow_commands_until_their_timeout(self):
         trolley = self.tank.bodies["trolley"]
         trolley.command(velocity=[-0.3, 0, 0])

@@ -147,7 +147,7 @@ class Body:
     def push(self, force=NOTHING, torque=NOTHING, point=None, duration=None, axes="tank"):
         """A force (N) and a torque (N m) from outside on a free body, from the next step on, in the place of those of the push before.
 
-        point: m, where the force acts; None: at the centre of mass. duration: s of simulated time; None: until the next push.
+        point: m, where the force acts; None: at the centre of mass. duration: s of simulated time, rounded to whole steps, one at least; None: until the next push.
         axes: "tank": force, torque and point are in the tank's axes and coordinates as they are now, and keep their directions while it lasts;
         "body": in the body's, point counted from its centre of mass, and all turns with the body. Raises Error."""
         force, torque = vector_of("force", force), vector_of("torque", torque)
