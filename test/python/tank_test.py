@@ -301,7 +301,8 @@ class Bodies(FlyingTest):
         self.assert_refused(["force", "three numbers"], self.box.push, force=5.0)
         self.assert_refused(["finite"], self.box.push, force=[float("nan"), 0, 0])
         self.assert_refused(["axes", "'world'"], self.box.push, force=[1, 0, 0], axes="world")
-        self.assert_refused(["duration"], self.box.push, force=[1, 0, 0], duration=-1)
+        for duration in (-1, 0, float("nan"), "1", [1.0, 2.0], numpy.ones(2)):
+            self.assert_refused(["duration"], self.box.push, force=[1, 0, 0], duration=duration)
         with self.assertRaises(KeyError) as missing:
             self.tank.bodies["bxo"]
         self.assertIn("'box', 'trolley'", str(missing.exception))
@@ -368,12 +369,19 @@ class Cases(TankTest):
         self.assert_refused(["nowhere.yaml"], wavetank.Tank, self.path("nowhere.yaml"))
         self.assert_refused(["the case: fluid is missing"], wavetank.Tank, {"title": "Dry", "duration": 1.0})
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"fluid/spacing": object()})
+        self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"title": "half a pair: \ud83c"})
+        self.assert_refused(["case", "path", "dictionary", "5"], wavetank.Tank, 5)
+        self.assert_refused(["restore", "path", "5"], wavetank.Tank, self.case(), restore=5)
+        self.assert_refused(["settings", "dictionary"], wavetank.Tank, self.case(), ["fluid/spacing"])
+        self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
         self.assert_refused(["package"], wavetank.Tank, self.case(tank={"mesh": "package://no_such_package/a.stl"}))
         self.assert_refused(["a.snapshot"], wavetank.Tank, self.case(), restore=self.path("a.snapshot"))
 
     def test_settings_of_numpy_and_closed_tanks(self):
-        tank = wavetank.Tank(self.case(), {"duration": numpy.float64(0.04), "fluid/fill/0/box/max": numpy.array([0.4, 0, 0.2])})
+        tank = wavetank.Tank(self.case(), {"title": "waves \U0001f30a", "duration": numpy.float64(0.04), "fluid/fill/0/box/max": numpy.array([0.4, 0, 0.2])})
         self.assertEqual((tank.duration, tank.case["duration"]), (0.04, 0.04))
+        self.assert_refused(["path"], tank.save, 5)
+        self.assertEqual(tank.case["title"], "waves \U0001f30a")
         tank.close()
         tank.close()
         self.assert_refused(["closed"], tank.advance, 0.01)

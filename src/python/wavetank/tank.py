@@ -153,6 +153,8 @@ class Body:
         force, torque = vector_of("force", force), vector_of("torque", torque)
         if axes not in ("tank", "body"):
             raise Error("axes must be 'tank' or 'body', not %r" % (axes,))
+        if duration is not None:
+            duration = number_of("duration", duration)
         if duration is not None and not duration > 0:
             raise Error("duration must be greater than 0 s, or None for until the next push, not %r" % (duration,))
         if point is not None:
@@ -209,9 +211,9 @@ class Tank:
     Takes as long as the start of wavetank_run. Raises Error for what that refuses, and Stopped where the watchdog stops the start."""
 
     def __init__(self, case, settings=None, restore=None):
-        file, text = ("", json_of(case)) if isinstance(case, dict) else (os.fspath(case), "")
-        pairs = [(key, json_of(value)) for key, value in (settings or {}).items()]
-        self._simulation = _simulation.Simulation(file, text, pairs, address_to_path, "" if restore is None else os.fspath(restore))
+        file, text = ("", json_of(case)) if isinstance(case, dict) else (path_of("case", case, " or the case itself as a dictionary"), "")
+        snapshot = "" if restore is None else path_of("restore", restore)
+        self._simulation = _simulation.Simulation(file, text, pairs_of(settings), address_to_path, snapshot)
         self.case = read_yaml(self._simulation.scene())  # every default filled in
         self.dimensions = self.case["dimensions"]
         self.duration = self.case["duration"]  # s, that it can be advanced to
@@ -268,7 +270,7 @@ class Tank:
 
     def save(self, path):
         """Writes a snapshot, whole or not at all."""
-        self._simulation.save(os.fspath(path))
+        self._simulation.save(path_of("path", path))
 
     # ------------------------------------------------------------ how it stands
 
@@ -396,15 +398,38 @@ def vector_of(what, value):
 
 def number_of(what, value):
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise Error("%s must be a number, not %r" % (what, value)) from None
+
+
+def path_of(what, value, otherwise=""):
+    try:
+        return os.fspath(value)
+    except TypeError:
+        raise Error("%s must be the path of a file%s, not %r" % (what, otherwise, value)) from None
+
+
+def pairs_of(settings):
+    """Keys with their values as the library reads them."""
+    if settings is None:
+        return []
+    if not isinstance(settings, collections.abc.Mapping):
+        raise Error("settings must be a dictionary of keys and values, as {'fluid/spacing': 0.02}, not %r" % (settings,))
+    for key in settings:
+        if not isinstance(key, str):
+            raise Error("settings: a key must be text, as 'fluid/spacing', not %r" % (key,))
+    return [(key, json_of(value)) for key, value in settings.items()]
 
 
 def json_of(value):
     """As YAML, which takes JSON; arrays and numbers of numpy too."""
     try:
-        return json.dumps(value, default=lambda other: other.tolist())
+        text = json.dumps(value, default=lambda other: other.tolist(), ensure_ascii=False)  # YAML knows no pairs of surrogates
+        text.encode()  # nor halves of them
+        return text
     except (TypeError, ValueError, AttributeError):
         raise Error("%r cannot be a value of a case: give numbers, text, True or False, lists and dictionaries of these" % (value,)) from None
 
