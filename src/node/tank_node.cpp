@@ -145,7 +145,7 @@ void TankNode::advertise_services() {
         response.success = reply.success;
         response.message = reply.message;
         response.time = reply.time;
-        response.stamp = clock_.at(reply.time);
+        response.stamp.fromNSec(reply.stamp);
         return true;
       }));
   services_.push_back(private_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
@@ -170,6 +170,7 @@ LoopHooks TankNode::make_hooks() {
     if (recorder_) recorder_->restart();
     log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");
   };
+  hooks.stamp = [this](double time) { return clock_.at(time).toNSec(); };
   hooks.idle = [this](const Simulation& simulation) { idle(simulation); };
   hooks.ended = [this](const LoopStatus& status) { ended(status); };
   return hooks;

@@ -475,6 +475,7 @@ class Bodies(unittest.TestCase):
         thread.join(10.0)
         self.assertFalse(answers[0].success)
         self.assertIn("the solver was paused", answers[0].message)
+        self.assertAlmostEqual(answers[0].stamp.to_sec(), self.time(), delta=0.01, msg="as samples bear it, after a reset too")
 
     def test_12_a_tank_is_driven_through_the_world(self):
         self.assertEqual(set(self.ear.stamps(CARRIAGE)) - {0}, set(), "~paused: it has not moved yet")

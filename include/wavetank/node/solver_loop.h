@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -33,7 +34,8 @@ struct LoopStatus {
 struct Reply {
   bool success = false;
   std::string message;
-  double time = 0;  ///< s of simulated time, of advance_by
+  double time = 0;          ///< s of simulated time, of advance_by
+  std::uint64_t stamp = 0;  ///< ns, the same as the hook `stamp` had it when the answer was made
 };
 
 /// What the loop's owner does with a simulation; each is called in the solver's thread, and none may keep the reference.
@@ -42,6 +44,7 @@ struct LoopHooks {
   std::function<void(const Simulation&, const Samples&)> stepped;  ///< at the start, after each step and after a reset
   std::function<void(Simulation&)> before_step;                    ///< before each step; empty = nothing to do
   std::function<void(const SolverState& last)> restarted;          ///< after a reset, before its samples; `last` = the state left
+  std::function<std::uint64_t(double time)> stamp;                 ///< ns, of a simulated time (s) as samples bear it now
   std::function<void(const Simulation&)> idle;                     ///< often while there is nothing to step; and after each step
   std::function<void(const LoopStatus&)> ended;                    ///< once, when no step will follow; may throw
 };
@@ -90,6 +93,7 @@ class SolverLoop {
   void serve_requests();
   void refuse_requests();
   void fail(const std::string& why);
+  Reply reply_at(bool success, const std::string& message, double time) const;
   void answer_advance();
   void cut_advance_short(const std::string& why);
   bool wait_for_pace();
