@@ -473,6 +473,7 @@ class Bodies(unittest.TestCase):
         self.assertIn("in progress", self.services["wavetank", "step"]().message)
         self.call("pause", True)
         thread.join(10.0)
+        self.let_messages_arrive()
         self.assertFalse(answers[0].success)
         self.assertIn("the solver was paused", answers[0].message)
         self.assertAlmostEqual(answers[0].stamp.to_sec(), self.time(), delta=0.01, msg="as samples bear it, after a reset too")

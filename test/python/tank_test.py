@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """wavetank.Tank: the bits of wavetank_run whatever the spans, pushes and commands against mechanics, and how it ends and refuses."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import threading
 import time
 import unittest
+import weakref
 
 import numpy
 import wavetank
@@ -376,6 +378,20 @@ class Cases(TankTest):
         self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
         self.assert_refused(["package"], wavetank.Tank, self.case(tank={"mesh": "package://no_such_package/a.stl"}))
         self.assert_refused(["a.snapshot"], wavetank.Tank, self.case(), restore=self.path("a.snapshot"))
+
+    def test_that_nobody_has_any_more_are_gone_at_once(self):
+        tank = wavetank.Tank(self.case())
+        kept = tank.bodies["step"], tank.gauges
+        gone = [weakref.ref(tank), weakref.ref(tank.bodies), weakref.ref(tank._simulation)]
+        gc.disable()
+        try:
+            del tank
+            self.assertEqual([reference() is None for reference in gone], [True, True, False], "a body and the gauges still have the simulation")
+            self.assertEqual(kept[0].velocity.tolist(), [0, 0, 0])
+            del kept
+            self.assertIsNone(gone[2]())
+        finally:
+            gc.enable()
 
     def test_settings_of_numpy_and_closed_tanks(self):
         tank = wavetank.Tank(self.case(), {"title": "waves \U0001f30a", "duration": numpy.float64(0.04), "fluid/fill/0/box/max": numpy.array([0.4, 0, 0.2])})
