@@ -29,6 +29,27 @@ struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// What a signal's handler has raised where the library could not be left, until it can; null = nothing. To be touched with the interpreter
+/// held; never deleted at the end of the process, when there is no interpreter any more.
+py::error_already_set* interruption = nullptr;
+
+/// Whether an exception is one, as Ctrl-C's and that of sys.exit(), and no failure of the code that it came through; it is kept then.
+bool keep_interruption(py::error_already_set& error) {
+  if (error.matches(PyExc_Exception)) return false;
+  delete interruption;
+  interruption = new py::error_already_set(std::move(error));
+  return true;
+}
+
+/// Raises what was kept, in the interpreter; false if nothing was.
+bool raise_interruption() {
+  if (!interruption) return false;
+  interruption->restore();
+  delete interruption;
+  interruption = nullptr;
+  return true;
+}
+
 /// Looks for signals on behalf of the interpreter, which cannot while the library works: often enough that nobody notices, seldom enough
 /// that it costs nothing.
 class SignalWatch {
@@ -39,7 +60,7 @@ class SignalWatch {
     due_ = now + std::chrono::milliseconds(10);
     held_.let_through();
     const py::gil_scoped_acquire interpreter;
-    if (PyErr_CheckSignals() != 0) throw Interrupted();
+    if (interruption || PyErr_CheckSignals() != 0) throw Interrupted();
   }
 
  private:
@@ -58,6 +79,7 @@ ResourceResolver resolver_of(const py::object& resolve) {
     try {
       return (*kept)(address).cast<std::string>();
     } catch (py::error_already_set& error) {
+      if (keep_interruption(error)) throw Interrupted();
       throw Error(py::str(error.value()).cast<std::string>());
     }
   };
@@ -129,12 +151,14 @@ class PythonSimulation {
       watch_ = &watch;
       what();
     } catch (const Interrupted&) {
+      raise_interruption();
       throw py::error_already_set();
     } catch (const Error&) {
       // Another thread of the program can take Ctrl-C while a kernel is compiled: then that is why the compiler failed (HeldSignals).
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (raise_interruption() || PyErr_CheckSignals() != 0) throw py::error_already_set();
       throw;
     }
+    if (raise_interruption()) throw py::error_already_set();
   }
 
   /// What takes none.
@@ -161,7 +185,13 @@ class PythonSimulation {
     });
   }
 
-  ~PythonSimulation() { close(); }
+  ~PythonSimulation() {
+    try {
+      close();
+    } catch (py::error_already_set& error) {  // nothing can be raised from here
+      keep_interruption(error);
+    }
+  }
 
   void advance(double seconds) {
     work([&] { steered().advance(seconds); });
@@ -284,10 +314,12 @@ class PythonSimulation {
 /// To Python's logging, under the name "wavetank".
 void log_to_python(LogLevel level, const std::string& line) {
   const py::gil_scoped_acquire interpreter;
+  const py::error_scope raised_before;  // on its way out while something is logged
   try {
     const char* const method = level == LogLevel::info ? "info" : level == LogLevel::warning ? "warning" : "error";
     py::module::import("logging").attr("getLogger")("wavetank").attr(method)("%s", line);
-  } catch (py::error_already_set&) {  // an interpreter that is on its way out
+  } catch (py::error_already_set& error) {
+    keep_interruption(error);  // anything else is an interpreter on its way out
   }
 }
 

@@ -2,6 +2,7 @@
 """wavetank.Tank: the bits of wavetank_run whatever the spans, pushes and commands against mechanics, and how it ends and refuses."""
 
 import gc
+import logging
 import os
 import signal
 import subprocess
@@ -10,6 +11,7 @@ import threading
 import time
 import unittest
 import weakref
+from unittest import mock
 
 import numpy
 import wavetank
@@ -378,6 +380,24 @@ class Cases(TankTest):
         self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
         self.assert_refused(["package"], wavetank.Tank, self.case(tank={"mesh": "package://no_such_package/a.stl"}))
         self.assert_refused(["a.snapshot"], wavetank.Tank, self.case(), restore=self.path("a.snapshot"))
+
+    def test_are_left_by_ctrl_c_in_a_log_line_and_in_an_address(self):
+        class Interrupting(logging.Handler):
+            def emit(self, record):
+                raise KeyboardInterrupt
+
+        logger, handler = logging.getLogger("wavetank"), Interrupting()
+        logger.addHandler(handler)
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                wavetank.Tank(self.case(), {"fluid/spacing": 0.1})  # with a warning: the water is only two spacings deep
+        finally:
+            logger.removeHandler(handler)
+        module = sys.modules[wavetank.Tank.__module__]
+        with mock.patch.object(module, "address_to_path", side_effect=KeyboardInterrupt):
+            with self.assertRaises(KeyboardInterrupt):
+                wavetank.Tank(self.case(tank={"mesh": "package://wavetank/meshes/a.stl"}))
+        wavetank.Tank(self.case()).close()  # it was raised once, and is over
 
     def test_that_nobody_has_any_more_are_gone_at_once(self):
         tank = wavetank.Tank(self.case())
