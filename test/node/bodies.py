@@ -20,7 +20,7 @@ from geometry_msgs.msg import InertiaStamped, Point, PointStamped, Pose, Quatern
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu, JointState, PointCloud2
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, String
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray
@@ -444,6 +444,29 @@ class Bodies(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("--force", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+
+    def test_10c_handles_tell_what_they_wait_for_and_follow_another_case(self):
+        case = "{dimensions: 2, gravity: [0, 0, -9.81], bodies: [{name: %s, motion: commanded}]}"
+        publishers = [rospy.Publisher("/elsewhere/" + topic, kind, queue_size=1, latch=True) for topic, kind in (("case", String), ("markers", MarkerArray))]
+        publishers += [rospy.Publisher("/elsewhere/bodies/%s/odom" % body, Odometry, queue_size=1, latch=True) for body in "ab"]
+        said, found = [], []
+        subscribers = [
+            rospy.Subscriber("/rosout", Log, lambda log: said.append(log.msg) if log.name.startswith("/waiting") else None),
+            rospy.Subscriber("/elsewhere/handles/update_full", InteractiveMarkerInit, lambda init: found.append({each.name for each in init.markers})),
+        ]
+        handles = subprocess.Popen([roslib.packages.find_node("wavetank", "handles")[0], "--tank", "/elsewhere", "__name:=waiting"])
+        try:
+            self.ear.wait(lambda: any("/elsewhere/case" in line for line in said), "a warning", 20)
+            publishers[1].publish(MarkerArray())
+            for body, odometry in zip("ab", publishers[2:]):
+                odometry.publish(Odometry())
+                publishers[0].publish(String(case % body))
+                self.ear.wait(lambda: found and found[-1] == {"run", "bodies/" + body}, "handles of the case with " + body, 10)
+        finally:
+            handles.send_signal(signal.SIGINT)
+            handles.wait(timeout=15)
+            for each in subscribers + publishers:
+                each.unregister()
 
     def test_11_reset_brings_the_bodies_back_and_the_run_repeats_itself(self):
         poses = self.ear.all(BOX)
