@@ -138,7 +138,9 @@ class NodeEndings(unittest.TestCase):
         for name, end in (("stopped", lambda node: node.send_signal(signal.SIGINT)), ("shut_down", self.shut_down)):
             node = self.start(name, case_file=CASE, duration=1000.0, paused=True)
             node.name = "/" + name
-            rospy.wait_for_service(node.name + "/advance", 60.0)
+            deadline = time.time() + 60
+            while rospy.wait_for_message(node.name + "/status", SolverStatus, 60.0).phase != SolverStatus.PAUSED:
+                self.assertLess(time.time(), deadline, "the node does not start")
             answers = []
 
             def advance():
@@ -149,7 +151,6 @@ class NodeEndings(unittest.TestCase):
 
             caller = threading.Thread(target=advance, daemon=True)
             caller.start()
-            deadline = time.time() + 60
             while rospy.wait_for_message(node.name + "/status", SolverStatus, 60.0).step < 10:
                 self.assertLess(time.time(), deadline, "the advance does not begin")
             begin = time.time()
