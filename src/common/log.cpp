@@ -27,8 +27,12 @@ void set_log_sink(LogSink replacement) {
 }
 
 void log(LogLevel level, const std::string& line) {
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (sink()) sink()(level, visible_lines(line));
+  LogSink current;  // called without the lock: it may log itself, or wait for somebody who does
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    current = sink();
+  }
+  if (current) current(level, visible_lines(line));
 }
 
 }  // namespace wavetank

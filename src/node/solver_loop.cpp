@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/whole_file.h"
 
@@ -187,18 +188,22 @@ void SolverLoop::fail(const std::string& why) {
   log(LogLevel::error, failure);
 }
 
+Reply SolverLoop::reply_at(bool success, const std::string& message, double time) const {
+  return {success, message, time, hooks_.stamp ? hooks_.stamp(time) : 0};
+}
+
 void SolverLoop::answer_advance() {
   if (!advancing_) return;
   const SolverState state = simulation_->state();
   if (!lock_step_.is_reached(state)) return;
-  advancing_->set_value({true, "step " + std::to_string(state.step) + ", time " + seconds_text(state.time), state.time});
+  advancing_->set_value(reply_at(true, "step " + std::to_string(state.step) + ", time " + seconds_text(state.time), state.time));
   advancing_.reset();
 }
 
 void SolverLoop::cut_advance_short(const std::string& why) {
   if (!advancing_) return;
   const double time = simulation_->state().time;
-  advancing_->set_value({false, "cut short at " + seconds_text(time) + ": " + why, time});
+  advancing_->set_value(reply_at(false, "cut short at " + seconds_text(time) + ": " + why, time));
   advancing_.reset();
 }
 
@@ -283,22 +288,29 @@ Reply SolverLoop::step() {
 
 Reply SolverLoop::advance_by(double seconds) {
   std::future<Reply> end;
-  const Reply begun = ask([this, seconds, &end](Simulation& simulation) -> Reply {
-    if (advancing_) return {false, "an advance is in progress already"};
+  bool is_heard = false;  // by the solver's thread, where no reset comes between a time and its stamp
+  const Reply begun = ask([this, seconds, &end, &is_heard](Simulation& simulation) -> Reply {
+    const SolverState state = simulation.state();
+    is_heard = true;
+    if (advancing_) return reply_at(false, "an advance is in progress already", state.time);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (!status_.paused) return {false, "the solver is running: pause it first"};
+      if (!status_.paused) return reply_at(false, "the solver is running: pause it first", state.time);
     }
-    lock_step_.ask(simulation.state(), seconds, case_.duration);
+    try {
+      lock_step_.ask(state, seconds, case_.duration);
+    } catch (const Error& error) {
+      return reply_at(false, error.what(), state.time);
+    }
     advancing_ = std::make_shared<std::promise<Reply>>();
     end = advancing_->get_future();
     return {true, ""};
   });
-  if (!begun.success) return {false, begun.message, status().solver.time};
+  if (!begun.success) return is_heard ? begun : reply_at(false, begun.message, status().solver.time);
   try {
     return end.get();
   } catch (const std::future_error&) {
-    return {false, "the solver has stopped", status().solver.time};
+    return reply_at(false, "the solver has stopped", status().solver.time);
   }
 }
 
@@ -307,6 +319,7 @@ Reply SolverLoop::reset() {
     cut_advance_short("the simulation was reset");
     const SolverState last = simulation.state();
     simulation.reset();
+    lock_step_ = LockStep();
     hooks_.restarted(last);
     pace_known_ = false;
     pass_on_samples();

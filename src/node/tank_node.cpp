@@ -57,9 +57,12 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
 
 TankNode::~TankNode() {
   timer_.stop();
+  loop_->stop();  // first: a service that is being called ends only then
   services_.clear();
   loop_.reset();
 }
+
+void TankNode::stop() { loop_->stop(); }
 
 int TankNode::finish() {
   timer_.stop();
@@ -142,7 +145,7 @@ void TankNode::advertise_services() {
         response.success = reply.success;
         response.message = reply.message;
         response.time = reply.time;
-        response.stamp = clock_.at(reply.time);
+        response.stamp.fromNSec(reply.stamp);
         return true;
       }));
   services_.push_back(private_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
@@ -171,6 +174,7 @@ LoopHooks TankNode::make_hooks() {
     if (recorder_) recorder_->restart();
     log(LogLevel::info, "reset to time 0; stamps and /clock go on without running backwards");
   };
+  hooks.stamp = [this](double time) { return clock_.at(time).toNSec(); };
   hooks.idle = [this](const Simulation& simulation) { idle(simulation); };
   hooks.ended = [this](const LoopStatus& status) { ended(status); };
   return hooks;

@@ -60,7 +60,9 @@ int main(int argc, char** argv) {
     wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
     ros::AsyncSpinner spinner(3);  // one waits for the end of ~advance
     spinner.start();
-    while (ros::ok() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
+    // roscpp says that it is not ok only once no call is in progress, and that of ~advance goes on.
+    while (ros::ok() && !ros::isShuttingDown() && !is_asked_to_end && !node.wants_to_exit()) ros::WallDuration(0.05).sleep();
+    node.stop();  // or the spinner would wait for whoever waits for the end of ~advance
     spinner.stop();
     return node.finish();
   } catch (const wavetank::EndRequested& left) {

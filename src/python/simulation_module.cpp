@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,27 @@ struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// What a signal's handler has raised where the library could not be left, until it can; null = nothing. To be touched with the interpreter
+/// held; never deleted at the end of the process, when there is no interpreter any more.
+py::error_already_set* interruption = nullptr;
+
+/// Whether an exception is one, as Ctrl-C's and that of sys.exit(), and no failure of the code that it came through; it is kept then.
+bool keep_interruption(py::error_already_set& error) {
+  if (error.matches(PyExc_Exception)) return false;
+  delete interruption;
+  interruption = new py::error_already_set(std::move(error));
+  return true;
+}
+
+/// Raises what was kept, in the interpreter; false if nothing was.
+bool raise_interruption() {
+  if (!interruption) return false;
+  interruption->restore();
+  delete interruption;
+  interruption = nullptr;
+  return true;
+}
+
 /// Looks for signals on behalf of the interpreter, which cannot while the library works: often enough that nobody notices, seldom enough
 /// that it costs nothing.
 class SignalWatch {
@@ -38,7 +60,7 @@ class SignalWatch {
     due_ = now + std::chrono::milliseconds(10);
     held_.let_through();
     const py::gil_scoped_acquire interpreter;
-    if (PyErr_CheckSignals() != 0) throw Interrupted();
+    if (interruption || PyErr_CheckSignals() != 0) throw Interrupted();
   }
 
  private:
@@ -57,6 +79,7 @@ ResourceResolver resolver_of(const py::object& resolve) {
     try {
       return (*kept)(address).cast<std::string>();
     } catch (py::error_already_set& error) {
+      if (keep_interruption(error)) throw Interrupted();
       throw Error(py::str(error.value()).cast<std::string>());
     }
   };
@@ -97,7 +120,11 @@ class PythonSimulation {
   /// The simulation is one thread's for as long as this lives.
   class Turn {
    public:
-    explicit Turn(std::atomic_flag& taken) : taken_(taken) {
+    Turn(std::atomic_flag& taken, pid_t process) : taken_(taken) {
+      if (getpid() != process)
+        throw Error(
+            "the tank belongs to the process that made it, and this one was forked from it: make the tank here, in a process that is "
+            "started anew (multiprocessing: the start method 'spawn')");
       if (taken.test_and_set()) throw Error("the tank is at work in another thread: wait until that is done");
     }
     ~Turn() { taken_.clear(); }
@@ -117,25 +144,27 @@ class PythonSimulation {
   /// What takes its time: without the interpreter, which looks for signals now and then.
   template <class What>
   void work(What what) {
-    const Turn turn(taken_);
+    const Turn turn(taken_, process_);
     try {
       const py::gil_scoped_release others_may_run;
       SignalWatch watch;
       watch_ = &watch;
       what();
     } catch (const Interrupted&) {
+      raise_interruption();
       throw py::error_already_set();
     } catch (const Error&) {
       // Another thread of the program can take Ctrl-C while a kernel is compiled: then that is why the compiler failed (HeldSignals).
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (raise_interruption() || PyErr_CheckSignals() != 0) throw py::error_already_set();
       throw;
     }
+    if (raise_interruption()) throw py::error_already_set();
   }
 
   /// What takes none.
   template <class What>
   auto look(What what) {
-    const Turn turn(taken_);
+    const Turn turn(taken_, process_);
     return what(steered());
   }
 
@@ -156,7 +185,13 @@ class PythonSimulation {
     });
   }
 
-  ~PythonSimulation() { close(); }
+  ~PythonSimulation() {
+    try {
+      close();
+    } catch (py::error_already_set& error) {  // nothing can be raised from here
+      keep_interruption(error);
+    }
+  }
 
   void advance(double seconds) {
     work([&] { steered().advance(seconds); });
@@ -172,6 +207,10 @@ class PythonSimulation {
   }
   void close() {
     if (!steered_) return;
+    if (getpid() != process_) {
+      (void)steered_.release();  // nothing of a device works after a fork, and what would be waited for is not there
+      return;
+    }
     work([&] { steered_.reset(); });
   }
 
@@ -242,7 +281,7 @@ class PythonSimulation {
   }
 
   /// Force and torque about the centre of mass, in the body's axes if it turns with it, else in the tank's as they stand now; for
-  /// `duration`, s of simulated time.
+  /// `duration`, s of simulated time, and one step at least: it acts in the steps whose middle lies in it.
   void push(std::size_t owner, const Numbers& force, const Numbers& torque, bool turns_with_body, double duration) {
     look([&](SteeredSimulation& steered) {
       const Quaterniond tank = steered.simulation().bodies().state(0).orientation;
@@ -250,7 +289,8 @@ class PythonSimulation {
       wrench.turns_with_body = turns_with_body;
       wrench.force = turns_with_body ? vector_of(force) : Vector3d(tank * vector_of(force));
       wrench.torque = turns_with_body ? vector_of(torque) : Vector3d(tank * vector_of(torque));
-      wrench.until = steered.simulation().state().time + duration;
+      const SolverState state = steered.simulation().state();
+      wrench.until = state.time + std::max(duration, state.time_step);
       steered.simulation().set_outside_wrench(owner, wrench);
     });
   }
@@ -265,6 +305,7 @@ class PythonSimulation {
   }
 
  private:
+  const pid_t process_ = getpid();  ///< that made it; a fork has none of the threads behind the device
   std::atomic_flag taken_ = ATOMIC_FLAG_INIT;
   SignalWatch* watch_ = nullptr;
   std::unique_ptr<SteeredSimulation> steered_;
@@ -273,10 +314,12 @@ class PythonSimulation {
 /// To Python's logging, under the name "wavetank".
 void log_to_python(LogLevel level, const std::string& line) {
   const py::gil_scoped_acquire interpreter;
+  const py::error_scope raised_before;  // on its way out while something is logged
   try {
     const char* const method = level == LogLevel::info ? "info" : level == LogLevel::warning ? "warning" : "error";
     py::module::import("logging").attr("getLogger")("wavetank").attr(method)("%s", line);
-  } catch (py::error_already_set&) {  // an interpreter that is on its way out
+  } catch (py::error_already_set& error) {
+    keep_interruption(error);  // anything else is an interpreter on its way out
   }
 }
 

@@ -1,5 +1,6 @@
 #include "wavetank/simulation/lock_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "texts.h"
@@ -19,11 +20,15 @@ void LockStep::ask(const SolverState& now, double seconds, double duration) {
 }
 
 void LockStep::ask_until(const SolverState& now, double time, double duration) {
-  if (!std::isfinite(time)) throw Error("an instant to advance to must be a finite number of seconds, not " + number(time));
+  if (!std::isfinite(time) || time < 0)
+    throw Error("an instant to advance to must be a finite number of seconds, at least 0, not " + number(time));
   if (time > duration + rounding)
     throw Error("from " + number(now.time) + " s it cannot be advanced to " + number(time) + " s: the run ends at " + number(duration) +
                 " s, its case's duration");
-  asked_ = time;
+  // What is over takes nothing back: spans go on to add up from the latest instant that was asked for.
+  const bool is_over = now.time >= time - rounding;
+  const double latest = now.time == reached_ ? asked_ : now.time;
+  asked_ = is_over ? std::max(latest, time) : time;
   reached_ = -1;
 }
 

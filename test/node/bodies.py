@@ -20,7 +20,7 @@ from geometry_msgs.msg import InertiaStamped, Point, PointStamped, Pose, Quatern
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu, JointState, PointCloud2
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, String
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray
@@ -387,12 +387,12 @@ class Bodies(unittest.TestCase):
         inertia = rospy.wait_for_message("/wavetank/bodies/box/inertia", InertiaStamped, 5.0).inertia
         self.assertAlmostEqual(inertia.m, 500.0 * 0.24 * 0.1, 9)
         handles = {marker.name: marker for marker in rospy.wait_for_message("/wavetank/handles/update_full", InteractiveMarkerInit, 5.0).markers}
-        self.assertEqual(set(handles), {"box", "trolley", "paddle", "run"})
-        self.assertEqual([entry.title for entry in handles["box"].menu_entries], ["Pause", "Go on", "Step", "Reset"])
+        self.assertEqual(set(handles), {"bodies/box", "bodies/trolley", "bodies/paddle", "run"})
+        self.assertEqual([entry.title for entry in handles["bodies/box"].menu_entries], ["Pause", "Go on", "Step", "Reset"])
         self.assertEqual(self.by_hand(WRENCH), [], "a handle that nobody holds")
         box = self.ear.last(BOX).pose.pose.position
         goal = box.x + (0.5 if box.x < 0.55 else -0.5)
-        with self.held("box", (goal, 0, box.z)):
+        with self.held("bodies/box", (goal, 0, box.z)):
             self.run_until(self.time() + 3.0)
         missed = self.ear.last(BOX).pose.pose.position.x - goal
         sent = self.by_hand(WRENCH)
@@ -407,7 +407,7 @@ class Bodies(unittest.TestCase):
 
     def test_09c_a_hand_in_rviz_drives_the_trolley_and_steps_the_run(self):
         at = self.ear.last(TROLLEY).pose.pose.position
-        with self.held("trolley", (at.x - 0.05, 0, at.z)):
+        with self.held("bodies/trolley", (at.x - 0.05, 0, at.z)):
             self.run_until(self.time() + 0.1)
             self.assertAlmostEqual(min(speed(odometry) for odometry in self.ear.all(TROLLEY)[-50:]), -2.0 * 0.05, delta=0.02, msg="twice the way a second")
             self.run_until(self.time() + 1.5)
@@ -422,6 +422,51 @@ class Bodies(unittest.TestCase):
         self.ear.subscribe_again("/tf")
         self.ear.wait(lambda: len(self.transforms("tank/bodies/box")) > before, "the last pose", 5)
         self.assertEqual(self.transforms("tank/bodies/box")[-1].header.stamp, self.ear.last(BOX).header.stamp)
+
+    def test_10a_handles_that_come_to_a_paused_tank_are_on_its_bodies(self):
+        remaps = ["/wavetank/handles/%s:=/late/%s" % (topic, topic) for topic in ("update", "update_full", "feedback")]
+        handles = subprocess.Popen([roslib.packages.find_node("wavetank", "handles")[0], "__name:=late"] + remaps)
+        found = {}
+        subscriber = rospy.Subscriber("/late/update_full", InteractiveMarkerInit, lambda init: found.update((each.name, each) for each in init.markers))
+        try:
+            self.ear.wait(lambda: {"bodies/box", "bodies/trolley", "bodies/paddle", "run"} == set(found), "a handle on each body", 20)
+        finally:
+            subscriber.unregister()
+            handles.send_signal(signal.SIGINT)
+            handles.wait(timeout=15)
+        self.assertEqual(numbers(found["bodies/box"].pose), numbers(self.ear.last(BOX).pose.pose))
+        self.assertEqual(found["bodies/box"].header.frame_id, "tank")
+
+    def test_10b_handles_refuse_a_force_that_is_none(self):
+        for force in ("0", "nan", "much"):
+            command = [roslib.packages.find_node("wavetank", "handles")[0], "--force=" + force]
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("--force", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_10c_handles_tell_what_they_wait_for_and_follow_another_case(self):
+        case = "{dimensions: 2, gravity: [0, 0, -9.81], bodies: [{name: %s, motion: commanded}]}"
+        publishers = [rospy.Publisher("/elsewhere/" + topic, kind, queue_size=1, latch=True) for topic, kind in (("case", String), ("markers", MarkerArray))]
+        publishers += [rospy.Publisher("/elsewhere/bodies/%s/odom" % body, Odometry, queue_size=1, latch=True) for body in "ab"]
+        said, found = [], []
+        subscribers = [
+            rospy.Subscriber("/rosout", Log, lambda log: said.append(log.msg) if log.name.startswith("/waiting") else None),
+            rospy.Subscriber("/elsewhere/handles/update_full", InteractiveMarkerInit, lambda init: found.append({each.name for each in init.markers})),
+        ]
+        handles = subprocess.Popen([roslib.packages.find_node("wavetank", "handles")[0], "--tank", "/elsewhere", "__name:=waiting"])
+        try:
+            self.ear.wait(lambda: any("/elsewhere/case" in line for line in said), "a warning", 20)
+            publishers[1].publish(MarkerArray())
+            for body, odometry in zip("ab", publishers[2:]):
+                odometry.publish(Odometry())
+                publishers[0].publish(String(case % body))
+                self.ear.wait(lambda: found and found[-1] == {"run", "bodies/" + body}, "handles of the case with " + body, 10)
+        finally:
+            handles.send_signal(signal.SIGINT)
+            handles.wait(timeout=15)
+            for each in subscribers + publishers:
+                each.unregister()
 
     def test_11_reset_brings_the_bodies_back_and_the_run_repeats_itself(self):
         poses = self.ear.all(BOX)
@@ -451,11 +496,14 @@ class Bodies(unittest.TestCase):
         self.assertIn("in progress", self.services["wavetank", "step"]().message)
         self.call("pause", True)
         thread.join(10.0)
+        self.let_messages_arrive()
         self.assertFalse(answers[0].success)
         self.assertIn("the solver was paused", answers[0].message)
+        self.assertAlmostEqual(answers[0].stamp.to_sec(), self.time(), delta=0.01, msg="as samples bear it, after a reset too")
 
     def test_12_a_tank_is_driven_through_the_world(self):
         self.assertEqual(set(self.ear.stamps(CARRIAGE)) - {0}, set(), "~paused: it has not moved yet")
+        self.a_reset_forgets_what_was_asked_for()
         heard = len(self.ear.all(CARRIAGE))
         self.call("reset", node="carriage")
         self.ear.wait(lambda: len(self.ear.all(CARRIAGE)) > heard, "the first pose after a reset")
@@ -478,6 +526,22 @@ class Bodies(unittest.TestCase):
         self.assertEqual(transform.header.frame_id, "world")
         self.assertEqual(transform.header.stamp, last.header.stamp)
         self.assertEqual(transform.transform.translation.x, last.pose.pose.position.x)
+
+    def a_reset_forgets_what_was_asked_for(self):
+        """Or a span would count from there, where steps bring the tank to the same time again."""
+        advance = rospy.ServiceProxy("/carriage/advance", Advance)
+        asked = 1e-5  # s, much less than a step
+        self.ear.wait(lambda: self.ear.all(CARRIAGE), "the start of the carriage")
+        answer = advance(asked)
+        self.assertTrue(answer.success, answer.message)
+        first = answer.time
+        self.assertGreater(first, 2.0 * asked)
+        self.call("reset", node="carriage")
+        self.call("step", node="carriage")
+        self.assertEqual(advance(0.0).time, first)
+        self.call("reset", node="carriage")
+        self.call("step", node="carriage")
+        self.assertGreater(advance(first - asked).time, first, "a span from where it stands, not from the instant that was asked for before the reset")
 
     def test_13_a_cloud_of_a_tank_that_moves_can_be_placed_in_the_world_while_it_stands(self):
         self.assertNotIn(self.ear.last(CARRIAGE).header.stamp.to_nsec(), self.stamps_of_clouds(), "no sample of poses is of the cloud's time")

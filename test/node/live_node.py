@@ -17,7 +17,7 @@ from sensor_msgs.msg import FluidPressure, Image, PointCloud2
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 from wavetank.msg import ProbeArray, SolverStatus, WaveGaugeArray
 from wavetank.srv import Advance
 
@@ -160,9 +160,20 @@ class LiveNode(unittest.TestCase):
         self.assertTrue(os.path.isabs(answer.message) and os.path.isfile(answer.message), answer.message)
         time.sleep(1.5)
         self.assertEqual(self.ear.all("/wavetank/status")[-1].step, 3, "paused is paused")
+        self.step_by_two_hands()
         self.advance_in_spans()
         self.assertTrue(self.pause(False).success)
         self.wait_for_phase(SolverStatus.FINISHED)
+
+    def step_by_two_hands(self):
+        """By the menu of the handles, which take one hand after another though the simulated time stands still."""
+        hand = rospy.Publisher("/wavetank/handles/feedback", InteractiveMarkerFeedback, queue_size=1)
+        self.ear.wait(lambda: hand.get_num_connections() > 0, "the handles")
+        before = self.ear.last("/wavetank/status").step
+        for count, client in enumerate(("one", "another"), 1):
+            time.sleep(1.1)  # which a hand must wait for another's word
+            hand.publish(InteractiveMarkerFeedback(client_id=client, marker_name="run", event_type=InteractiveMarkerFeedback.MENU_SELECT, menu_entry_id=3))
+            self.ear.wait(lambda: self.ear.last("/wavetank/status").step == before + count, "a step by %s" % client, 10)
 
     def refused_advance(self, seconds):
         answer = self.advance(seconds)
@@ -170,7 +181,7 @@ class LiveNode(unittest.TestCase):
         return answer.message
 
     def advance_in_spans(self):
-        """From after three steps, paused."""
+        """From after a few steps, paused."""
         begin = self.advance(0.0).time
         for n in range(1, 11):
             answer = self.advance(0.01)

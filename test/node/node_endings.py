@@ -11,6 +11,7 @@ import tempfile
 import threading
 import time
 import unittest
+import xmlrpc.client
 
 import rosbag
 import rosgraph
@@ -20,6 +21,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from wavetank.msg import ProbeArray, SolverStatus
+from wavetank.srv import Advance
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CASE = os.path.join(HERE, "still_tank.yaml")
@@ -131,6 +133,39 @@ class NodeEndings(unittest.TestCase):
             found = self.stamps(self.path("a.bag"), "/interrupted/probes")
             self.assertEqual(found, [i * 1000000 for i in range(len(found))])
             self.assertNotIn("/interrupted", str(rosgraph.Master("/test").getSystemState()))
+
+    def test_ctrl_c_and_rosnode_kill_end_an_advance_that_is_in_progress(self):
+        for name, end in (("stopped", lambda node: node.send_signal(signal.SIGINT)), ("shut_down", self.shut_down)):
+            node = self.start(name, case_file=CASE, duration=1000.0, paused=True)
+            node.name = "/" + name
+            deadline = time.time() + 60
+            while rospy.wait_for_message(node.name + "/status", SolverStatus, 60.0).phase != SolverStatus.PAUSED:
+                self.assertLess(time.time(), deadline, "the node does not start")
+            answers = []
+
+            def advance():
+                try:
+                    answers.append(rospy.ServiceProxy(node.name + "/advance", Advance)(900.0).success)
+                except rospy.ServiceException:  # the connection is gone before the answer is sent
+                    answers.append(False)
+
+            caller = threading.Thread(target=advance, daemon=True)
+            caller.start()
+            while rospy.wait_for_message(node.name + "/status", SolverStatus, 60.0).step < 10:
+                self.assertLess(time.time(), deadline, "the advance does not begin")
+            begin = time.time()
+            end(node)
+            code, output = self.wait_for_end(node)
+            self.assertEqual(code, 0, output)
+            self.assertLess(time.time() - begin, PATIENCE)
+            caller.join(5.0)
+            self.assertEqual(answers, [False], "who called it is answered")
+
+    @staticmethod
+    def shut_down(node):
+        """As rosnode kill does."""
+        with xmlrpc.client.ServerProxy(rosgraph.Master("/test").lookupNode(node.name)) as proxy:
+            proxy.shutdown("/test", "the test ends it")
 
     def test_ctrl_c_while_packing_ends_cleanly_and_leaves_no_bag(self):
         numerics = {"packing": {"iterations": 100000}}

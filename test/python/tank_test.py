@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """wavetank.Tank: the bits of wavetank_run whatever the spans, pushes and commands against mechanics, and how it ends and refuses."""
 
+import gc
+import logging
 import os
 import signal
 import subprocess
@@ -8,6 +10,8 @@ import sys
 import threading
 import time
 import unittest
+import weakref
+from unittest import mock
 
 import numpy
 import wavetank
@@ -220,6 +224,22 @@ class Spans(FlyingTest):
         self.assertGreater(counted[0], 10)
         self.assertIn("another thread", refusals[0])
 
+    def test_are_refused_in_a_process_that_was_forked(self):
+        child = os.fork()
+        if child == 0:  # leaves by _exit only: the rest of the tests is the parent's
+            signal.alarm(30)  # rather than wait for ever, where it is not refused
+            code = 1
+            try:
+                self.assert_refused(["forked", "spawn"], self.tank.advance, 0.01)
+                self.assert_refused(["forked", "spawn"], self.tank.particles)
+                self.tank.close()
+                code = 0
+            finally:
+                os._exit(code)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.tank.advance(0.01)
+        self.assertGreaterEqual(self.tank.time, 0.01)
+
     def test_are_ended_by_ctrl_c(self):
         timer = threading.Timer(0.3, signal.pthread_kill, (threading.main_thread().ident, signal.SIGINT))
         timer.start()
@@ -263,6 +283,14 @@ class Bodies(FlyingTest):
         self.tank.advance(0.05)
         self.assertAlmostEqual(self.box.velocity[0], 5.0 * 0.01, delta=5.0 * 2 * self.tank.time_step)
 
+    def test_are_pushed_for_one_step_at_least(self):
+        self.box.push(force=[5.0 * self.box.mass, 0, 0], duration=1e-7)
+        self.tank.advance(1e-7)
+        first = self.tank.time
+        self.assertEqual(self.tank.step, 1)
+        self.tank.advance(0.01)
+        self.assertAlmostEqual(self.box.velocity[0], 5.0 * first, 9)
+
     def test_follow_commands_until_their_timeout(self):
         trolley = self.tank.bodies["trolley"]
         trolley.command(velocity=[-0.3, 0, 0])
@@ -277,7 +305,8 @@ class Bodies(FlyingTest):
         self.assert_refused(["force", "three numbers"], self.box.push, force=5.0)
         self.assert_refused(["finite"], self.box.push, force=[float("nan"), 0, 0])
         self.assert_refused(["axes", "'world'"], self.box.push, force=[1, 0, 0], axes="world")
-        self.assert_refused(["duration"], self.box.push, force=[1, 0, 0], duration=-1)
+        for duration in (-1, 0, float("nan"), "1", [1.0, 2.0], numpy.ones(2)):
+            self.assert_refused(["duration"], self.box.push, force=[1, 0, 0], duration=duration)
         with self.assertRaises(KeyError) as missing:
             self.tank.bodies["bxo"]
         self.assertIn("'box', 'trolley'", str(missing.exception))
@@ -344,12 +373,51 @@ class Cases(TankTest):
         self.assert_refused(["nowhere.yaml"], wavetank.Tank, self.path("nowhere.yaml"))
         self.assert_refused(["the case: fluid is missing"], wavetank.Tank, {"title": "Dry", "duration": 1.0})
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"fluid/spacing": object()})
+        self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"title": "half a pair: \ud83c"})
+        self.assert_refused(["case", "path", "dictionary", "5"], wavetank.Tank, 5)
+        self.assert_refused(["restore", "path", "5"], wavetank.Tank, self.case(), restore=5)
+        self.assert_refused(["settings", "dictionary"], wavetank.Tank, self.case(), ["fluid/spacing"])
+        self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
         self.assert_refused(["package"], wavetank.Tank, self.case(tank={"mesh": "package://no_such_package/a.stl"}))
         self.assert_refused(["a.snapshot"], wavetank.Tank, self.case(), restore=self.path("a.snapshot"))
 
+    def test_are_left_by_ctrl_c_in_a_log_line_and_in_an_address(self):
+        class Interrupting(logging.Handler):
+            def emit(self, record):
+                raise KeyboardInterrupt
+
+        logger, handler = logging.getLogger("wavetank"), Interrupting()
+        logger.addHandler(handler)
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                wavetank.Tank(self.case(), {"fluid/spacing": 0.1})  # with a warning: the water is only two spacings deep
+        finally:
+            logger.removeHandler(handler)
+        module = sys.modules[wavetank.Tank.__module__]
+        with mock.patch.object(module, "address_to_path", side_effect=KeyboardInterrupt):
+            with self.assertRaises(KeyboardInterrupt):
+                wavetank.Tank(self.case(tank={"mesh": "package://wavetank/meshes/a.stl"}))
+        wavetank.Tank(self.case()).close()  # it was raised once, and is over
+
+    def test_that_nobody_has_any_more_are_gone_at_once(self):
+        tank = wavetank.Tank(self.case())
+        kept = tank.bodies["step"], tank.gauges
+        gone = [weakref.ref(tank), weakref.ref(tank.bodies), weakref.ref(tank._simulation)]
+        gc.disable()
+        try:
+            del tank
+            self.assertEqual([reference() is None for reference in gone], [True, True, False], "a body and the gauges still have the simulation")
+            self.assertEqual(kept[0].velocity.tolist(), [0, 0, 0])
+            del kept
+            self.assertIsNone(gone[2]())
+        finally:
+            gc.enable()
+
     def test_settings_of_numpy_and_closed_tanks(self):
-        tank = wavetank.Tank(self.case(), {"duration": numpy.float64(0.04), "fluid/fill/0/box/max": numpy.array([0.4, 0, 0.2])})
+        tank = wavetank.Tank(self.case(), {"title": "waves \U0001f30a", "duration": numpy.float64(0.04), "fluid/fill/0/box/max": numpy.array([0.4, 0, 0.2])})
         self.assertEqual((tank.duration, tank.case["duration"]), (0.04, 0.04))
+        self.assert_refused(["path"], tank.save, 5)
+        self.assertEqual(tank.case["title"], "waves \U0001f30a")
         tank.close()
         tank.close()
         self.assert_refused(["closed"], tank.advance, 0.01)

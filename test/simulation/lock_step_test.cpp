@@ -65,6 +65,26 @@ TEST(LockStep, CountsFromWhereSomethingElseHasMovedTheSimulation) {
   EXPECT_NEAR(run.state.time, 0.527, 1e-12);
 }
 
+TEST(LockStep, AnInstantThatIsOverTakesNothingBack) {
+  Steps run{{}, 0.003};
+  LockStep lock_step;
+  lock_step.ask(run.state, 0.01, 1.0);
+  run.go_on(lock_step);
+  for (const double past : {0.0, 0.005, 0.01}) {
+    lock_step.ask_until(run.state, past, 1.0);
+    EXPECT_EQ(run.go_on(lock_step), 0) << past;
+  }
+  lock_step.ask(run.state, 0.01, 1.0);
+  run.go_on(lock_step);
+  EXPECT_NEAR(run.state.time, 0.021, 1e-12) << "the first step's end from 0.02 s on";
+  run.state.time = 0.5;  // something else has moved it
+  lock_step.ask_until(run.state, 0.1, 1.0);
+  EXPECT_EQ(run.go_on(lock_step), 0);
+  lock_step.ask(run.state, 0.01, 1.0);
+  run.go_on(lock_step);
+  EXPECT_NEAR(run.state.time, 0.512, 1e-12) << "from where it stands";
+}
+
 TEST(LockStep, RefusesWhatCannotBe) {
   LockStep lock_step;
   SolverState state;
@@ -72,7 +92,9 @@ TEST(LockStep, RefusesWhatCannotBe) {
   for (const double seconds : {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_NE(error_of([&] { lock_step.ask(state, seconds, 1.0); }).find("at least 0"), std::string::npos) << seconds;
   }
-  EXPECT_NE(error_of([&] { lock_step.ask_until(state, NAN, 1.0); }).find("finite"), std::string::npos);
+  for (const double time : {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_NE(error_of([&] { lock_step.ask_until(state, time, 1.0); }).find("at least 0"), std::string::npos) << time;
+  }
   EXPECT_EQ(error_of([&] { lock_step.ask(state, 0.6, 1.0); }),
             "from 0.5 s it cannot be advanced to 1.1 s: the run ends at 1 s, its case's duration");
   lock_step.ask(state, 0.5, 1.0);

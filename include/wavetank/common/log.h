@@ -7,7 +7,8 @@ namespace wavetank {
 
 enum class LogLevel { info, warning, error };
 
-/// Receives one line of text, without a newline. May be called from the thread that runs the simulation.
+/// Receives one line of text, without a newline. May be called from any thread, and from several at
+/// once.
 using LogSink = std::function<void(LogLevel level, const std::string& line)>;
 
 /// Replaces the sink of the whole process; the default writes to standard error. Programs set it once, before anything else runs.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -33,7 +34,8 @@ struct LoopStatus {
 struct Reply {
   bool success = false;
   std::string message;
-  double time = 0;  ///< s of simulated time, of advance_by
+  double time = 0;          ///< s of simulated time, of advance_by
+  std::uint64_t stamp = 0;  ///< ns, the same as the hook `stamp` had it when the answer was made
 };
 
 /// What the loop's owner does with a simulation; each is called in the solver's thread, and none may keep the reference.
@@ -43,6 +45,7 @@ struct LoopHooks {
   std::function<void()> violated;                ///< once, after a step that ended in a Violation, before its samples; may be empty
   std::function<void(Simulation&)> before_step;  ///< before each step; empty = nothing to do
   std::function<void(const SolverState& last)> restarted;  ///< after a reset, before its samples; `last` = the state left
+  std::function<std::uint64_t(double time)> stamp;         ///< ns, of a simulated time (s) as samples bear it now
   std::function<void(const Simulation&)> idle;             ///< often while there is nothing to step; and after each step
   std::function<void(const LoopStatus&)> ended;            ///< once, when no step will follow; may throw
 };
@@ -63,7 +66,8 @@ class SolverLoop {
   SolverLoop(const SolverLoop&) = delete;
   SolverLoop& operator=(const SolverLoop&) = delete;
 
-  /// Stops after the step in progress, abandons a start in progress; returns when the hook `ended` has.
+  /// Stops after the step in progress, abandons a start in progress; returns when the hook `ended` has. Whoever waits for an answer gets
+  /// one. Not to be called by two threads at once; the second time it does nothing.
   void stop();
 
   /// Once it is answered, no step is in progress. During the start: the run will begin paused, or not.
@@ -90,6 +94,7 @@ class SolverLoop {
   void serve_requests();
   void refuse_requests();
   void fail(const std::string& why);
+  Reply reply_at(bool success, const std::string& message, double time) const;
   void answer_advance();
   void cut_advance_short(const std::string& why);
   bool wait_for_pace();

@@ -34,6 +34,8 @@ class TankNode {
 
   /// Whether the process should end: when it cannot start, some seconds after a failure, or at the end of the duration if so asked.
   bool wants_to_exit() const { return wants_to_exit_; }
+  /// Stops the simulation and answers whoever waits for it; to be called before the threads of callbacks are waited for.
+  void stop();
   /// Stops the simulation and closes the bag; the exit code of the process: 0, 2 if the case could not be laid out or its snapshot not be
   /// restored, or 3 after a failure of the simulation or of the bag.
   int finish();

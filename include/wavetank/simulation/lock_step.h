@@ -13,7 +13,8 @@ class LockStep {
   /// simulation since. Throws Error for a span that is not finite or negative, or that ends after `duration` (s), and asks for nothing
   /// then.
   void ask(const SolverState& now, double seconds, double duration);
-  /// The same for an instant. One that is over already asks for no step.
+  /// The same for an instant, s. One that is over already asks for no step, and the next span counts from where it would have without.
+  /// Throws Error for one that is negative, not finite or after `duration`.
   void ask_until(const SolverState& now, double time, double duration);
   /// Whether the simulation is where it was asked to come to. To be asked after every step, and first of all before any.
   bool is_reached(const SolverState& now);

@@ -1,10 +1,12 @@
 """Handles in rviz on the bodies of a running tank: interactive markers that pull free bodies, drive commanded ones, and pause, step and reset the run."""
 
 import argparse
+import math
 import threading
 import time
 
 import numpy
+import rosgraph
 import rospy
 from geometry_msgs.msg import InertiaStamped, Pose, Twist, WrenchStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
@@ -12,8 +14,10 @@ from interactive_markers.menu_handler import MenuHandler
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, InteractiveMarkerFeedback, Marker, MarkerArray
 
+from wavetank import Failure
 from wavetank.names import level_of
 from wavetank.runs import read_yaml
 
@@ -23,6 +27,7 @@ SHARE_OF_WEIGHT = 0.5  # greatest pull
 SPEED, TURN = 1.0, 2.0  # m/s and rad/s, of commanded bodies that the case sets no limits
 APPROACH = 2.0  # 1/s, at which a commanded body comes up to its handle
 SILENCE = 2.0  # s of wall time without a word from rviz, which speaks four times a second while it drags, after which a handle is let go
+PATIENCE = 3.0  # s of wall time between warnings of what is waited for
 FOLLOWING = 0.05  # s of wall time, between which handles that are free follow their bodies
 PARTS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 0.0, 1.0), "z": (0.0, 1.0, 0.0)}  # what turns the x axis of a control to an axis, beside w = 1
 
@@ -135,26 +140,37 @@ class Driver:
 class Handle:
     """A body's interactive marker: with the body until it is held, then what the body is drawn to. Nothing is sent of one that nobody holds."""
 
-    def __init__(self, server, menu, name, topic, sender, size, plane):
-        self.server, self.name, self.sender, self.size, self.plane = server, name, sender, size, plane
+    def __init__(self, server, menu, name, topic, frame, sender, size, plane):
+        self.server, self.name, self.frame, self.sender, self.size, self.plane = server, name, frame, sender, size, plane
         self.lock = threading.RLock()
         self.body = None  # none has been heard of yet
         self.held_at = None  # a pose; none: nobody holds it
         self.turns = False
         self.heard = 0.0  # s of wall time
         self.menu = menu
-        rospy.Subscriber(topic + "/odom", Odometry, self.hear, queue_size=1, tcp_nodelay=True)
+        self.subscriber = rospy.Subscriber(topic + "/odom", Odometry, self.hear, queue_size=1, tcp_nodelay=True)
 
-    def hear(self, odometry):
+    def hear(self, odometry, only_first=False):
         with self.lock:
             begins = self.body is None
+            if only_first and not begins:
+                return
             self.body = Body(odometry)
-            if begins:
-                self.server.insert(self.marker(), self.feel)
-                self.menu.apply(self.server, self.name)
-                self.server.applyChanges()
             if self.held_at is not None:
                 self.sender.send(self.body, self.held_at, self.turns)
+        if begins:  # without the lock: the server calls feel() under its own
+            self.server.insert(self.marker(), self.feel)
+            self.menu.apply(self.server, self.name)
+            self.server.applyChanges()
+
+    def find(self, transforms):
+        """Its first pose, of a tank that stands: late listeners get the last transforms, but no odometry, which goes on from there."""
+        for transform in transforms.transforms:
+            if transform.child_frame_id != self.frame:
+                continue
+            odometry = Odometry(header=transform.header, child_frame_id=self.frame)
+            odometry.pose.pose = Pose(transform.transform.translation, transform.transform.rotation)
+            self.hear(odometry, only_first=True)
 
     def feel(self, feedback):
         with self.lock:
@@ -175,14 +191,22 @@ class Handle:
         self.held_at = None
         self.sender.send(self.body, None, False)
 
+    def end(self):
+        """Once its case is another's."""
+        self.subscriber.unregister()
+        with self.lock:
+            self.let_go()
+            self.sender.publisher.unregister()
+
     def follow(self):
         with self.lock:
             if self.body is None:
                 return
             if self.held_at is not None and time.monotonic() - self.heard > SILENCE:
                 self.let_go()
-            if self.held_at is None:
-                self.server.setPose(self.name, self.body.pose)
+            pose = self.body.pose if self.held_at is None else None
+        if pose is not None:
+            self.server.setPose(self.name, pose)
 
     def marker(self):
         marker = InteractiveMarker()
@@ -258,10 +282,20 @@ def edges_of(drawing, group, number):
     return numpy.array([[0.0, 0.0, 0.0], [0.5, 0.5, 0.5]]), ""
 
 
-def put_handles(server, tank, greatest_force):
+def wait_for(topic, kind):
+    """A topic's first message, and a word now and then while there is none."""
+    while True:
+        try:
+            return rospy.wait_for_message(topic, kind, PATIENCE)
+        except rospy.ROSInterruptException:
+            raise
+        except rospy.ROSException:
+            rospy.logwarn("nothing is heard on %s yet: is a tank of that name (--tank) running?" % topic)
+
+
+def put_handles(server, tank, case, greatest_force):
     """On all bodies that can be moved from outside."""
-    case = read_yaml(rospy.wait_for_message(tank + "/case", String).data)
-    drawing = rospy.wait_for_message(tank + "/markers", MarkerArray)
+    drawing = wait_for(tank + "/markers", MarkerArray)
     menu = Menu(server, tank)
     places, frame = edges_of(drawing, "tank edges", 0)
     menu.put_over(frame or case.get("world_frame", "tank"), places)
@@ -270,7 +304,7 @@ def put_handles(server, tank, greatest_force):
     for number, body in enumerate(case.get("bodies") or []):
         topic = "%s/bodies/%s" % (tank, level_of(body["name"]))
         if body["motion"] == "free":
-            inertia = rospy.wait_for_message(topic + "/inertia", InertiaStamped).inertia
+            inertia = wait_for(topic + "/inertia", InertiaStamped).inertia
             sender = Puller(topic, Spring(inertia, gravity, greatest_force))
         elif body["motion"] == "commanded":
             sender = Driver(topic, body.get("command") or {})
@@ -278,9 +312,47 @@ def put_handles(server, tank, greatest_force):
             continue
         places, _ = edges_of(drawing, "body edges", number)
         size = float(numpy.linalg.norm(numpy.ptp(places, axis=0)))
-        handles.append(Handle(server, menu, body["name"], topic, sender, size, case["dimensions"] == 2))
+        body_frame = "%s/bodies/%s" % (case.get("world_frame", "tank"), level_of(body["name"]))
+        handles.append(Handle(server, menu, "bodies/" + body["name"], topic, body_frame, sender, size, case["dimensions"] == 2))
     server.applyChanges()
     return handles
+
+
+class Handles:
+    """Those of the tank's newest case: a node that is started again may have another."""
+
+    def __init__(self, tank, greatest_force):
+        self.server = InteractiveMarkerServer(tank + "/handles")
+        self.tank, self.greatest_force = tank, greatest_force
+        self.case = self.newest = wait_for(tank + "/case", String).data
+        self.handles = put_handles(self.server, tank, read_yaml(self.case), greatest_force)
+        rospy.Subscriber(tank + "/case", String, self.hear, queue_size=1)
+        self.look_for_poses()
+
+    def hear(self, case):
+        self.newest = case.data
+
+    def look_for_poses(self):
+        """With a connection of its own, which the last transforms are sent to."""
+        handles = self.handles
+        self.transforms = rospy.Subscriber("/tf", TFMessage, lambda transforms: [handle.find(transforms) for handle in handles], queue_size=100)
+
+    def follow(self):
+        if self.newest != self.case:
+            self.begin_again()
+        for handle in self.handles:
+            handle.follow()
+        self.server.applyChanges()
+
+    def begin_again(self):
+        self.case = self.newest
+        self.transforms.unregister()
+        for handle in self.handles:
+            handle.end()
+        self.server.clear()
+        self.server.applyChanges()
+        self.handles = put_handles(self.server, self.tank, read_yaml(self.case), self.greatest_force)
+        self.look_for_poses()
 
 
 def main(arguments):
@@ -288,14 +360,16 @@ def main(arguments):
     parser.add_argument("--tank", default="/wavetank", help="namespace of the wave tank's node (default /wavetank)")
     parser.add_argument("--force", type=float, help="greatest force on a free body, N (2-D: N/m); half of its weight unless set")
     options = parser.parse_args(arguments)
-    tank = options.tank.rstrip("/")
-    server = InteractiveMarkerServer(tank + "/handles")
+    if options.force is not None and not (math.isfinite(options.force) and options.force > 0):
+        raise Failure("--force must be a finite number of newtons greater than 0, not %g" % options.force)
+    if not rosgraph.is_master_online():
+        raise Failure("there is no ROS master; start a tank first, as in: roslaunch wavetank floating_box.launch rviz:=true handles:=true")
+    # By the clock on the wall: the server of the markers takes a hand's word only a second after another's, and the simulated time may stand still.
+    rospy.init_node("handles", anonymous=True, disable_rostime=True)
     try:
-        handles = put_handles(server, tank, options.force)
+        handles = Handles(options.tank.rstrip("/"), options.force)
+        while not rospy.is_shutdown():  # by the clock on the wall: the simulated one may stand still
+            handles.follow()
+            time.sleep(FOLLOWING)
     except rospy.ROSInterruptException:
-        return
-    while not rospy.is_shutdown():  # by the clock on the wall: the simulated one may stand still
-        for handle in handles:
-            handle.follow()
-        server.applyChanges()
-        time.sleep(FOLLOWING)
+        pass

@@ -35,6 +35,19 @@ Energies = collections.namedtuple("Energies", "time kinetic potential compressio
 Particles = collections.namedtuple("Particles", "time id position velocity pressure density shepard surface")
 
 
+# What follows has the simulation and not its Tank: a Tank that nobody has any more must go at once, with its memory on the device, and not wait for the
+# collector of cycles.
+
+
+def newest(simulation, kind):
+    """Time and row of the newest sample of a kind."""
+    samples = simulation.newest_samples()
+    if kind not in samples:
+        raise Error("there is no sample yet of %s: advance the tank" % kind)
+    times, values = samples[kind]
+    return float(times[0]), values[0]
+
+
 class ByName(collections.abc.Mapping):
     """Things of a tank by their names in the case, in its order. what: they are, for messages."""
 
@@ -60,30 +73,27 @@ class ByName(collections.abc.Mapping):
 class Readings(ByName):
     """The newest samples of instruments of a kind, by name. width: numbers of each."""
 
-    def __init__(self, tank, what, names, kind, width=1, shape=float):
-        super().__init__(what, names, lambda n: shape(*self._row()[width * n : width * (n + 1)]))
-        self._tank, self._kind = tank, kind
-
-    def _row(self):
-        return self._tank._newest(self._kind)[1]
+    def __init__(self, simulation, what, names, kind, width=1, shape=float):
+        super().__init__(what, names, lambda n: shape(*newest(simulation, kind)[1][width * n : width * (n + 1)]))
+        self._simulation, self._kind = simulation, kind
 
     @property
     def time(self):
         """s of simulated time, that they are of: the newest on the instruments' clock that the simulation has passed."""
-        return self._tank._newest(self._kind)[0]
+        return newest(self._simulation, self._kind)[0]
 
 
 class Body:
     """A body of the tank, or "tank", the tank itself. Vectors are arrays of three in the tank's coordinates and axes (of the tank itself, in the world's)
     unless it is said otherwise; SI units; in 2-D forces, torques and masses are those of a metre of width."""
 
-    def __init__(self, tank, owner, name, motion):
-        self._tank, self._owner = tank, owner
+    def __init__(self, simulation, owner, name, motion, imus):
+        self._simulation, self._owner, self._imus = simulation, owner, imus
         self.name = name
         self.motion = motion  # fixed, free, prescribed or commanded
 
     def _state(self, part):
-        return numpy.array(self._tank._simulation.body_state(self._owner)[part])
+        return numpy.array(self._simulation.body_state(self._owner)[part])
 
     @property
     def position(self):
@@ -120,39 +130,40 @@ class Body:
     @property
     def mass(self):
         """kg; 0 of a body that is not free and has none in the case."""
-        return self._tank._simulation.mass_of(self._owner)[0]
+        return self._simulation.mass_of(self._owner)[0]
 
     @property
     def inertia(self):
         """kg m², a matrix about the centre of mass, in the axes that the body has at the start; in 2-D only its middle counts."""
-        return numpy.array(self._tank._simulation.mass_of(self._owner)[1])
+        return numpy.array(self._simulation.mass_of(self._owner)[1])
 
     @property
     def wrench(self):
         """The newest sample of what the water does to the body: time (s), force (N) and torque (N m, about the centre of mass) in the body's own axes."""
-        time, row = self._tank._newest("wrenches")
+        time, row = newest(self._simulation, "wrenches")
         row = row[18 * self._owner :]
         return Wrench(time, row[0:3].copy(), row[3:6].copy())
 
     @property
     def imu(self):
         """The newest sample of the body's inertial measurement unit: time, orientation in the world, angular velocity and specific force in its own axes."""
-        names = self._tank._imus
-        if self.name not in names:
+        if self.name not in self._imus:
             raise Error("body '%s' has no imu in the case (bodies/N/imu)" % self.name)
-        time, row = self._tank._newest("imus")
-        row = row[10 * names.index(self.name) :]
+        time, row = newest(self._simulation, "imus")
+        row = row[10 * self._imus.index(self.name) :]
         return Imu(time, row[0:4].copy(), row[4:7].copy(), row[7:10].copy())
 
     def push(self, force=NOTHING, torque=NOTHING, point=None, duration=None, axes="tank"):
         """A force (N) and a torque (N m) from outside on a free body, from the next step on, in the place of those of the push before.
 
-        point: m, where the force acts; None: at the centre of mass. duration: s of simulated time; None: until the next push.
+        point: m, where the force acts; None: at the centre of mass. duration: s of simulated time, rounded to whole steps, one at least; None: until the next push.
         axes: "tank": force, torque and point are in the tank's axes and coordinates as they are now, and keep their directions while it lasts;
         "body": in the body's, point counted from its centre of mass, and all turns with the body. Raises Error."""
         force, torque = vector_of("force", force), vector_of("torque", torque)
         if axes not in ("tank", "body"):
             raise Error("axes must be 'tank' or 'body', not %r" % (axes,))
+        if duration is not None:
+            duration = number_of("duration", duration)
         if duration is not None and not duration > 0:
             raise Error("duration must be greater than 0 s, or None for until the next push, not %r" % (duration,))
         if point is not None:
@@ -160,45 +171,45 @@ class Body:
                 raise Error("a push of the tank itself acts at its centre of mass: give no point")
             arm = vector_of("point", point) - (self.position if axes == "tank" else 0.0)
             torque = torque + numpy.cross(arm, force)
-        self._tank._simulation.push(self._owner, force, torque, axes == "body", FOREVER if duration is None else duration)
+        self._simulation.push(self._owner, force, torque, axes == "body", FOREVER if duration is None else duration)
 
     def command(self, velocity=NOTHING, angular_velocity=NOTHING):
         """The velocity (m/s) and angular velocity (rad/s), in the body's own axes, that a commanded body is to have, within the limits that the case sets;
         held for the case's command/timeout. Raises Error."""
-        self._tank._simulation.command_body(self._owner, vector_of("velocity", velocity), vector_of("angular_velocity", angular_velocity))
+        self._simulation.command_body(self._owner, vector_of("velocity", velocity), vector_of("angular_velocity", angular_velocity))
 
 
 class Joint:
     """A joint of the case. position: rad or m from the start, of a spring its length; velocity; effort: N or N m of its own spring and damper."""
 
-    def __init__(self, tank, index, name):
-        self._tank, self._index = tank, index
+    def __init__(self, simulation, index, name):
+        self._simulation, self._index = simulation, index
         self.name = name
 
-    position = property(lambda self: self._tank._simulation.joint_state(self._index)[0])
-    velocity = property(lambda self: self._tank._simulation.joint_state(self._index)[1])
-    effort = property(lambda self: self._tank._simulation.joint_state(self._index)[2])
+    position = property(lambda self: self._simulation.joint_state(self._index)[0])
+    velocity = property(lambda self: self._simulation.joint_state(self._index)[1])
+    effort = property(lambda self: self._simulation.joint_state(self._index)[2])
 
     def command(self, value):
         """The effort (N or N m) or velocity (m/s or rad/s), as the case's command/quantity says, of a joint that has a command; held for its timeout.
         Raises Error."""
-        self._tank._simulation.command_joint(self._index, number_of("value", value))
+        self._simulation.command_joint(self._index, number_of("value", value))
 
 
 class Opening:
     """An opening of the case. discharge: m³/s (2-D: m²/s) into the water in the last step; volume: m³ (2-D: m²) that came in, less what left."""
 
-    def __init__(self, tank, index, name):
-        self._tank, self._index = tank, index
+    def __init__(self, simulation, index, name):
+        self._simulation, self._index = simulation, index
         self.name = name
 
-    discharge = property(lambda self: self._tank._simulation.opening_state(self._index)[0])
-    volume = property(lambda self: self._tank._simulation.opening_state(self._index)[1])
+    discharge = property(lambda self: self._simulation.opening_state(self._index)[0])
+    volume = property(lambda self: self._simulation.opening_state(self._index)[1])
 
     def command(self, discharge):
         """The discharge (m³/s, 2-D m²/s, at least 0: into the tank of an inlet, out of it of an outlet) of an opening that has a command; held for its
         timeout. Raises Error."""
-        self._tank._simulation.command_discharge(self._index, number_of("discharge", discharge))
+        self._simulation.command_discharge(self._index, number_of("discharge", discharge))
 
 
 class Tank:
@@ -209,9 +220,9 @@ class Tank:
     Takes as long as the start of wavetank_run. Raises Error for what that refuses, and Stopped where the watchdog stops the start."""
 
     def __init__(self, case, settings=None, restore=None):
-        file, text = ("", json_of(case)) if isinstance(case, dict) else (os.fspath(case), "")
-        pairs = [(key, json_of(value)) for key, value in (settings or {}).items()]
-        self._simulation = _simulation.Simulation(file, text, pairs, address_to_path, "" if restore is None else os.fspath(restore))
+        file, text = ("", json_of(case)) if isinstance(case, dict) else (path_of("case", case, " or the case itself as a dictionary"), "")
+        snapshot = "" if restore is None else path_of("restore", restore)
+        self._simulation = _simulation.Simulation(file, text, pairs_of(settings), address_to_path, snapshot)
         self.case = read_yaml(self._simulation.scene())  # every default filled in
         self.dimensions = self.case["dimensions"]
         self.duration = self.case["duration"]  # s, that it can be advanced to
@@ -231,9 +242,10 @@ class Tank:
         self.gauges = self._readings("wave_gauges", "wave gauge", "levels")  # m
         self.velocities = self._readings("velocity_probes", "velocity probe", "velocities", 3, lambda *xyz: numpy.array(xyz))  # m/s
         self.sections = self._readings("sections", "section", "sections", 2, SectionFlow)
-        self.bodies = ByName("body", [name for name, _ in self._owners], lambda n: Body(self, n, *self._owners[n]))
-        self.joints = ByName("joint", [joint["name"] for joint in self._joints], lambda n: Joint(self, n, self._joints[n]["name"]))
-        self.openings = ByName("opening", [each["name"] for each in self._openings], lambda n: Opening(self, n, self._openings[n]["name"]))
+        simulation, owners, imus, joints, openings = self._simulation, self._owners, self._imus, self._joints, self._openings
+        self.bodies = ByName("body", [name for name, _ in owners], lambda n: Body(simulation, n, *owners[n], imus))
+        self.joints = ByName("joint", [joint["name"] for joint in joints], lambda n: Joint(simulation, n, joints[n]["name"]))
+        self.openings = ByName("opening", [each["name"] for each in openings], lambda n: Opening(simulation, n, openings[n]["name"]))
 
     def __enter__(self):
         return self
@@ -268,7 +280,7 @@ class Tank:
 
     def save(self, path):
         """Writes a snapshot, whole or not at all."""
-        self._simulation.save(os.fspath(path))
+        self._simulation.save(path_of("path", path))
 
     # ------------------------------------------------------------ how it stands
 
@@ -281,7 +293,7 @@ class Tank:
     @property
     def energies(self):
         """The newest sample, J and kg (docs/topics.md); damper_power in W."""
-        time, row = self._newest("energies")
+        time, row = newest(self._simulation, "energies")
         return Energies(time, *row.tolist())
 
     def particles(self, surface_only=False):
@@ -304,14 +316,7 @@ class Tank:
         return tables
 
     def _readings(self, group, what, kind, width=1, shape=float):
-        return Readings(self, what, [each["name"] for each in self._listed[group]], kind, width, shape)
-
-    def _newest(self, kind):
-        newest = self._simulation.newest_samples()
-        if kind not in newest:
-            raise Error("there is no sample yet of %s: advance the tank" % kind)
-        times, values = newest[kind]
-        return float(times[0]), values[0]
+        return Readings(self._simulation, what, [each["name"] for each in self._listed[group]], kind, width, shape)
 
     def _columns(self):
         """Of every table: name, kind of sample, columns (name, unit, place in the kind's row), positions, frame."""
@@ -396,15 +401,38 @@ def vector_of(what, value):
 
 def number_of(what, value):
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise Error("%s must be a number, not %r" % (what, value)) from None
+
+
+def path_of(what, value, otherwise=""):
+    try:
+        return os.fspath(value)
+    except TypeError:
+        raise Error("%s must be the path of a file%s, not %r" % (what, otherwise, value)) from None
+
+
+def pairs_of(settings):
+    """Keys with their values as the library reads them."""
+    if settings is None:
+        return []
+    if not isinstance(settings, collections.abc.Mapping):
+        raise Error("settings must be a dictionary of keys and values, as {'fluid/spacing': 0.02}, not %r" % (settings,))
+    for key in settings:
+        if not isinstance(key, str):
+            raise Error("settings: a key must be text, as 'fluid/spacing', not %r" % (key,))
+    return [(key, json_of(value)) for key, value in settings.items()]
 
 
 def json_of(value):
     """As YAML, which takes JSON; arrays and numbers of numpy too."""
     try:
-        return json.dumps(value, default=lambda other: other.tolist())
+        text = json.dumps(value, default=lambda other: other.tolist(), ensure_ascii=False)  # YAML knows no pairs of surrogates
+        text.encode()  # nor halves of them
+        return text
     except (TypeError, ValueError, AttributeError):
         raise Error("%r cannot be a value of a case: give numbers, text, True or False, lists and dictionaries of these" % (value,)) from None
 
