@@ -115,7 +115,9 @@ std::vector<double> RecordFile::numbers(const std::string& column) const {
   values.reserve(rows_.size());
   for (const Row& row : rows_) {
     const std::optional<double> value = number(row.values[index]);
-    if (!value) throw Error(place(row.line) + " column '" + column + "': '" + visible_text(row.values[index], longest_shown) + "' is not a finite number");
+    if (!value)
+      throw Error(place(row.line) + " column '" + column + "': '" + visible_text(row.values[index], longest_shown) +
+                  "' is not a finite number");
     values.push_back(*value);
   }
   return values;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "wavetank/instruments/filled.h"
 #include "wavetank/common/error.h"
+#include "wavetank/instruments/filled.h"
 
 namespace wavetank {
 

@@ -14,8 +14,8 @@ namespace {
 /// half a percent.
 constexpr double coarsenings[] = {0.0, 0.05, 0.2, 0.5, 1.0};
 
-/// Grid values are distances out of the water, as OpenVDB has them. The grid stays of no class: of one of GRID_LEVEL_SET the mesher turns the
-/// triangles round.
+/// Grid values are distances out of the water, as OpenVDB has them. The grid stays of no class: of one of GRID_LEVEL_SET the mesher turns
+/// the triangles round.
 openvdb::FloatGrid::Ptr grid_of(const std::vector<NodeValue>& values, float elsewhere) {
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(-elsewhere);
   openvdb::FloatGrid::Accessor accessor = grid->getAccessor();

@@ -313,9 +313,10 @@ class Bodies(unittest.TestCase):
         said = self.warnings("NaN")
         self.assertEqual(set(said), {topic + "a wrench with a NaN or an infinite value is ignored: the one before stays"})
         self.assertLess(len(said), 5, "of 40 messages, sent within much less than four seconds")
-        self.assertEqual(self.warnings("'map'"), [
-            topic + "a wrench in frame 'map' is ignored: its frame_id must be 'tank/bodies/box', 'tank', 'world' or empty, which means the body's own"
-        ])
+        self.assertEqual(
+            self.warnings("'map'"),
+            [topic + "a wrench in frame 'map' is ignored: its frame_id must be 'tank/bodies/box', 'tank', 'world' or empty, which means the body's own"],
+        )
 
     def test_09_a_commanded_body_follows_brakes_at_its_timeout_and_is_driven_while_paused(self):
         first = self.ear.last(TROLLEY)
@@ -475,11 +476,11 @@ class Bodies(unittest.TestCase):
         self.let_messages_arrive()
         self.call("reset")
         self.let_messages_arrive()
-        again = self.ear.all(BOX)[len(poses):]
+        again = self.ear.all(BOX)[len(poses) :]
         self.assertEqual(len(again), 1)
         self.assertEqual(seconds(again[0]), math.floor(last) + 1.0, "stamps go on")
         self.run_until(math.floor(last) + 1.1)
-        again = self.ear.all(BOX)[len(poses):]
+        again = self.ear.all(BOX)[len(poses) :]
         for first, second in zip(poses[:50], again[:50]):
             self.assertEqual(numbers(first.pose.pose), numbers(second.pose.pose))
             self.assertEqual(first.twist, second.twist)

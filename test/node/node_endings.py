@@ -109,9 +109,7 @@ class NodeEndings(unittest.TestCase):
 
         subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, hear)
         fluid = {"sound_speed": 0.6, "fill": [{"box": {"min": [0, 0, 0.1], "max": [0.1, 0, 0.38]}}]}
-        node = self.start(
-            "falling", case_file=CASE, duration=2.0, fluid=fluid, bodies=[], snapshot_directory=self.folder, bag=self.path("end.bag")
-        )
+        node = self.start("falling", case_file=CASE, duration=2.0, fluid=fluid, bodies=[], snapshot_directory=self.folder, bag=self.path("end.bag"))
         code, output = self.wait_for_end(node)
         subscriber.unregister()
         self.assertEqual(code, 3, output)
@@ -233,7 +231,9 @@ class NodeEndings(unittest.TestCase):
             self.assertEqual(file.read(), "kept")
 
     def test_a_violation_during_the_start_is_one_too(self):
-        bodies = [{"name": "top", "box": {"min": [0.1, -0.1, 0.25], "max": [0.2, 0.1, 0.3]}, "motion": "free", "density": 500.0, "angular_velocity": [0, 1e5, 0]}]
+        bodies = [
+            {"name": "top", "box": {"min": [0.1, -0.1, 0.25], "max": [0.2, 0.1, 0.3]}, "motion": "free", "density": 500.0, "angular_velocity": [0, 1e5, 0]}
+        ]
         node = self.start("spinning", case_file=CASE, bodies=bodies, snapshot_directory=self.folder, bag=self.path("a.bag"))
         code, output = self.wait_for_end(node)
         self.assertEqual(code, 3, output)

@@ -29,9 +29,7 @@ except ImportError:
 
 def start_server(*arguments):
     """The process, and the address of its page."""
-    process = subprocess.Popen(
-        [sys.executable, WEB, "--port", "0", *arguments], stdout=subprocess.PIPE, universal_newlines=True
-    )
+    process = subprocess.Popen([sys.executable, WEB, "--port", "0", *arguments], stdout=subprocess.PIPE, universal_newlines=True)
     line = process.stdout.readline()
     if not line:
         raise AssertionError("the server did not start")
@@ -50,7 +48,13 @@ def end(process):
 class Browser:
     def __init__(self, width=900, height=640):
         options = webdriver.ChromeOptions()
-        wanted = ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--window-size=%d,%d" % (width, height)]
+        wanted = [
+            "--headless=new",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+            "--disable-dev-shm-usage",
+            "--window-size=%d,%d" % (width, height),
+        ]
         for argument in wanted + (["--no-sandbox"] if os.geteuid() == 0 else []):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
@@ -76,7 +80,9 @@ class Browser:
         """The part of the canvas that has one of the water's colours: blue, and more so than anything else that is drawn."""
         import matplotlib.image
 
-        data = self.driver.execute_script("const view = wavetank.view; view.renderer.render(view.scene, view.camera); return view.canvas.toDataURL('image/png');")
+        data = self.driver.execute_script(
+            "const view = wavetank.view; view.renderer.render(view.scene, view.camera); return view.canvas.toDataURL('image/png');"
+        )
         picture = 255 * matplotlib.image.imread(io.BytesIO(base64.b64decode(data.partition(",")[2])))[:, :, :3]
         red, green, blue = picture[:, :, 0], picture[:, :, 1], picture[:, :, 2]
         return float(((blue > 90) & (blue > red + 45) & (blue > green + 8)).mean())

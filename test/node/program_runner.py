@@ -48,24 +48,12 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *arguments, timeout=120, **options):
         return subprocess.run(
-            [PROGRAM] + list(arguments),
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            universal_newlines=True,
-            timeout=timeout,
-            **options
+            [PROGRAM] + list(arguments), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=timeout, **options
         )
 
     def start_program(self, *arguments, **options):
         process = subprocess.Popen(
-            [PROGRAM] + list(arguments),
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            universal_newlines=True,
-            bufsize=1,
-            **options
+            [PROGRAM] + list(arguments), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, bufsize=1, **options
         )
 
         def end():

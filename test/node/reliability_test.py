@@ -43,9 +43,7 @@ end_header
 
 
 def text_ply():
-    return (
-        PLY_HEADER % "ascii" + "".join("%g %g %g\n" % corner for corner in CORNERS) + "".join("3 %d %d %d\n" % triangle for triangle in TRIANGLES)
-    )
+    return PLY_HEADER % "ascii" + "".join("%g %g %g\n" % corner for corner in CORNERS) + "".join("3 %d %d %d\n" % triangle for triangle in TRIANGLES)
 
 
 def binary_ply(shift, order="<"):

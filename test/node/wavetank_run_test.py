@@ -64,7 +64,20 @@ class Information(ProgramTest):
     def test_help_names_every_option_and_exit_code(self):
         result = self.run_program("--help")
         self.assert_runs(result)
-        for word in ["--bag", "--clouds", "--surface", "--duration", "--set", "--device", "--restore", "--save", "--profile", "--check", "--list-devices", "Exit code"]:
+        for word in [
+            "--bag",
+            "--clouds",
+            "--surface",
+            "--duration",
+            "--set",
+            "--device",
+            "--restore",
+            "--save",
+            "--profile",
+            "--check",
+            "--list-devices",
+            "Exit code",
+        ]:
             self.assertIn(word, result.stdout)
 
     def test_version(self):
@@ -187,7 +200,7 @@ class Bags(ProgramTest):
         kinds, counts, points, levels = {}, {}, [], []
         with rosbag.Bag(self.path("out.bag")) as bag:
             for topic, info in bag.get_type_and_topic_info()[1].items():
-                kinds[topic[len("/wavetank/"):]], counts[topic[len("/wavetank/"):]] = info.msg_type, info.message_count
+                kinds[topic[len("/wavetank/") :]], counts[topic[len("/wavetank/") :]] = info.msg_type, info.message_count
             for topic, message, _ in bag.read_messages(topics=["/wavetank/gauges", "/wavetank/gauges/H1"]):
                 (points if topic.endswith("H1") else levels).append(message)
         for topic, kind, count in (
@@ -569,7 +582,12 @@ class FullDisks(ProgramTest):
         case = self.case()
         result = subprocess.run(
             [program_runner.PROGRAM, case, "--bag", self.path("out.bag"), "--save", "end.snapshot"],
-            cwd=disk, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120,
+            cwd=disk,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=120,
         )
         self.assert_refused(result, "end.snapshot", "the disk is full", "nor in '%s'" % disk)
         self.assertEqual(len(stamps(self.path("out.bag"), "/wavetank/probes")), 51)

@@ -25,7 +25,8 @@ TEST(CasePage, DefaultsAreThoseOfTheStructs) {
   const std::string page = describe_case_keys();
   EXPECT_NE(page.find("| `duration` | number | s | greater than 0 | required |"), std::string::npos);
   EXPECT_NE(page.find("| `numerics/courant` | number |  | greater than 0 and at most 1.5 | `0.5` |"), std::string::npos);
-  EXPECT_NE(page.find("| `fluid/sound_speed` | number or auto | m/s | greater than 0 and at most 1000000; or auto | `auto` |"), std::string::npos);
+  EXPECT_NE(page.find("| `fluid/sound_speed` | number or auto | m/s | greater than 0 and at most 1000000; or auto | `auto` |"),
+            std::string::npos);
   EXPECT_NE(page.find("| `numerics/density_diffusion` | word |  | none, fourtakas, antuono | `fourtakas` |"), std::string::npos);
   EXPECT_NE(page.find("| `instruments/pressure_probes/N/position` |"), std::string::npos);
 }

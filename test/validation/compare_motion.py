@@ -102,8 +102,7 @@ def crossings(record, level=0.0):
     side[side == 0] = 1
     found = numpy.nonzero(side[1:] != side[:-1])[0]
     return [
-        float(record.times[i] + (level - record.values[i]) * (record.times[i + 1] - record.times[i]) / (record.values[i + 1] - record.values[i]))
-        for i in found
+        float(record.times[i] + (level - record.values[i]) * (record.times[i + 1] - record.times[i]) / (record.values[i + 1] - record.values[i])) for i in found
     ]
 
 

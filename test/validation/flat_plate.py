@@ -97,7 +97,9 @@ def main(program, directory, cases):
         line = line_of(reynolds, roughness)
         bar = 0.2 if roughness > 0 else 0.15
         missed = missed or abs(found / line - 1) > bar
-        print("| %g | %g | %g | %.5f | %.5f | %+.0f %% | %.0f %% |" % (reynolds, spacing, roughness, found, line, 100 * (found / line - 1), 100 * bar), flush=True)
+        print(
+            "| %g | %g | %g | %.5f | %.5f | %+.0f %% | %.0f %% |" % (reynolds, spacing, roughness, found, line, 100 * (found / line - 1), 100 * bar), flush=True
+        )
     return 1 if missed else 0
 
 

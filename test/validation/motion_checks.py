@@ -86,7 +86,9 @@ def floating(bag, picture, table, density, spacing):
     table.add(name + "height, standard deviation", "0", "%.3f mm" % (1e3 * late.std()), "")
     greatest = float(numpy.abs(tilt.values).max())
     table.add(name + "greatest tilt", "0", "%.2f deg" % greatest, "", "5 deg", greatest < 5)
-    table.add(name + "greatest change of height", "0", "%.2f spacings" % (numpy.ptp(heights.values) / spacing), "", "1 spacing", numpy.ptp(heights.values) < spacing)
+    table.add(
+        name + "greatest change of height", "0", "%.2f spacings" % (numpy.ptp(heights.values) / spacing), "", "1 spacing", numpy.ptp(heights.values) < spacing
+    )
     x = motion.values("x")
     table.add(name + "drift along the tank", "0", "%.2f mm in %.0f s" % (1e3 * (x[-1] - x[0]), end), "")
     return [
@@ -117,7 +119,12 @@ def heave(bag, picture, table, displacement):
     else:
         error = (found[2] - found[0]) / (wanted[2] - wanted[0]) - 1
         table.add(
-            "period, first to third passage of rest", "%.3f s" % (wanted[2] - wanted[0]), "%.3f s" % (found[2] - found[0]), percent(error), "5 %", abs(error) <= 0.05
+            "period, first to third passage of rest",
+            "%.3f s" % (wanted[2] - wanted[0]),
+            "%.3f s" % (found[2] - found[0]),
+            percent(error),
+            "5 %",
+            abs(error) <= 0.05,
         )
         half, our_half = 2 * (wanted[1] - wanted[0]), 2 * (found[1] - found[0])
         table.add("twice the time from the first to the second", "%.3f s" % half, "%.3f s" % our_half, percent(our_half / half - 1))

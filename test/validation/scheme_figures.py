@@ -49,6 +49,7 @@ def at(rows, column, time):
 
 def orders(values):
     import math
+
     return ["%.2f" % math.log2(a / b) for a, b in zip(values, values[1:])]
 
 
@@ -76,9 +77,12 @@ def taylor_green(runs, sides):
             rows = found[scheme, n, "viscous"]
             axes[1][1].plot([r["t"] for r in rows], [r["energy"] for r in rows], style, color=colour)
     import math
+
     times = [0.01 * k for k in range(51)]
-    axes[1][1].plot(times, [math.exp(-16 * math.pi ** 2 * t / 100) for t in times], "k", linewidth=0.8, label="exact")
-    for axis, title in zip(axes.flat, ["greatest shift/U (fig 1)", "kinetic energy left, inviscid (fig 4)", "pressure error, rms/ρU²", "kinetic energy left, Re = 100 (fig 6)"]):
+    axes[1][1].plot(times, [math.exp(-16 * math.pi**2 * t / 100) for t in times], "k", linewidth=0.8, label="exact")
+    for axis, title in zip(
+        axes.flat, ["greatest shift/U (fig 1)", "kinetic energy left, inviscid (fig 4)", "pressure error, rms/ρU²", "kinetic energy left, Re = 100 (fig 6)"]
+    ):
         axis.set_title(title)
         axis.set_xlabel("tU/L")
     axes[0][0].set_yscale("log")
@@ -87,29 +91,42 @@ def taylor_green(runs, sides):
     figure.tight_layout()
     figure.savefig(os.path.join(runs.folder, "taylor_green.png"), dpi=110)
 
-    head = ["scheme"] + ["max δu/U, L/Δx = %d" % n for n in sides] + ["order"] + ["E/E₀ at 0.4, %d" % n for n in sides] + ["p error at 0.4, %d" % n for n in sides]
+    head = (
+        ["scheme"] + ["max δu/U, L/Δx = %d" % n for n in sides] + ["order"] + ["E/E₀ at 0.4, %d" % n for n in sides] + ["p error at 0.4, %d" % n for n in sides]
+    )
     lines = []
     for scheme in SCHEMES:
         shifts = [mean(found[scheme, n, "inviscid"], "mean_shift", 0.25, 0.5) for n in sides]
-        lines.append([scheme] + ["%.3f" % s for s in shifts] + [", ".join(orders(shifts))] + ["%.3f" % at(found[scheme, n, "inviscid"], "energy", 0.4) for n in sides] +
-                     ["%.3f" % at(found[scheme, n, "inviscid"], "error", 0.4) for n in sides])
+        lines.append(
+            [scheme]
+            + ["%.3f" % s for s in shifts]
+            + [", ".join(orders(shifts))]
+            + ["%.3f" % at(found[scheme, n, "inviscid"], "energy", 0.4) for n in sides]
+            + ["%.3f" % at(found[scheme, n, "inviscid"], "error", 0.4) for n in sides]
+        )
     table(head, lines)
     lines = []
     for scheme in SCHEMES:
-        lines.append([scheme] + ["%.3f (%.3f)" % (at(found[scheme, n, "viscous"], "energy", 0.4), math.exp(-16 * math.pi ** 2 * 0.4 / 100)) for n in sides])
+        lines.append([scheme] + ["%.3f (%.3f)" % (at(found[scheme, n, "viscous"], "energy", 0.4), math.exp(-16 * math.pi**2 * 0.4 / 100)) for n in sides])
     table(["Re = 100: E/E₀ at 0.4 (exact)"] + [str(n) for n in sides], lines)
 
     n = sides[0]
     still = found["riemann_ale", n, "inviscid"]
     carried = runs.run("taylor_green", scheme="riemann_ale", shifting="michel", n=n, end=0.5, rows=25, drift=2)
-    table(["riemann_ale, %d" % n, "max δu/U, mean of 0.25–0.5", "E/E₀ at 0.1"],
-          [["as it is", "%.4f" % mean(still, "mean_shift", 0.25, 0.5), "%.5f" % at(still, "energy", 0.1)],
-           ["carried along by 2 U", "%.4f" % mean(carried, "mean_shift", 0.25, 0.5), "%.5f" % at(carried, "energy", 0.1)]])
+    table(
+        ["riemann_ale, %d" % n, "max δu/U, mean of 0.25–0.5", "E/E₀ at 0.1"],
+        [
+            ["as it is", "%.4f" % mean(still, "mean_shift", 0.25, 0.5), "%.5f" % at(still, "energy", 0.1)],
+            ["carried along by 2 U", "%.4f" % mean(carried, "mean_shift", 0.25, 0.5), "%.5f" % at(carried, "energy", 0.1)],
+        ],
+    )
     lines = []
     for law in LAWS:
         cells = [law]
         for n in sides:
-            rows = runs.run("taylor_green", scheme="riemann_ale", shifting=law, n=n, end=0.3, rows=15) if law != "michel" else found["riemann_ale", n, "inviscid"]
+            rows = (
+                runs.run("taylor_green", scheme="riemann_ale", shifting=law, n=n, end=0.3, rows=15) if law != "michel" else found["riemann_ale", n, "inviscid"]
+            )
             cells.append("%.3f, %.3f, %d" % (mean(rows, "mean_shift", 0.2, 0.3), at(rows, "error", 0.3), at(rows, "close", 0.3)))
         lines.append(cells)
     table(["riemann_ale: max δu/U (mean of 0.2–0.3), p error/ρU² and pairs closer than Δx/2 at 0.3"] + ["L/Δx = %d" % n for n in sides], lines)
@@ -136,8 +153,14 @@ def rotating_square(runs, sides):
     axes[0].legend(fontsize=7)
     figure.tight_layout()
     figure.savefig(os.path.join(runs.folder, "rotating_square.png"), dpi=110)
-    table(["scheme"] + ["max δu/ωL, mean of 1.5–2.5, L/Δx = %d" % n for n in sides] + ["order"] + ["E/E₀ at 2, %d" % n for n in sides] +
-          ["p(centre), mean to 0.2, %d" % n for n in sides], lines)
+    table(
+        ["scheme"]
+        + ["max δu/ωL, mean of 1.5–2.5, L/Δx = %d" % n for n in sides]
+        + ["order"]
+        + ["E/E₀ at 2, %d" % n for n in sides]
+        + ["p(centre), mean to 0.2, %d" % n for n in sides],
+        lines,
+    )
 
 
 def main():
