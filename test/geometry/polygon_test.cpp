@@ -50,6 +50,17 @@ TEST(Triangulate, AnLInSinglePrecisionTurnedInSpace) {
   EXPECT_NEAR(area, whole.norm(), 1e-6 * whole.norm());
 }
 
+TEST(Triangulate, EndsWhereItsBudgetDoes) {
+  std::vector<Vector3d> circle;
+  for (int k = 0; k < 50; ++k) circle.emplace_back(std::cos(k * M_PI / 25), std::sin(k * M_PI / 25), 0);
+  std::uint64_t enough = 50 * 50, little = 50;
+  EXPECT_EQ(triangulate(circle, &enough).size(), 48u);
+  EXPECT_GT(enough, 0u);
+  EXPECT_LT(enough, 50u * 50u);
+  EXPECT_TRUE(triangulate(circle, &little).empty());
+  EXPECT_EQ(little, 0u);
+}
+
 TEST(Triangulate, StarsOfAnyShape) {
   const unsigned seed = 11;
   std::mt19937 random(seed);
