@@ -163,7 +163,7 @@ class Kinds {
       given.push_back({key, value});
     }
     std::vector<std::string> places = places_;
-    for (const Override& each : given) places.push_back(each.key);
+    for (const Override& each : given) places.push_back(visible_text(each.key));  // as it is printed
     return {"case.yaml", mutation.one_of(small_cases_),
             [path, given] {
               lay_out_and_look(read_case_file(path, given, {resolve, {}}));
@@ -349,7 +349,7 @@ class Kinds {
 
   const ScratchDirectory& scratch_;
   /// Where a case is wrong: its file, a key, or a thing by its name.
-  const std::vector<std::string> places_{"case.yaml", "/", "body '", "joint '", "mesh '", "the tank", "gauge", "probe"};
+  const std::vector<std::string> places_{"case.yaml", "/", "body '", "joint '", "mesh '", "the tank", "gauge", "probe", "section '"};
   std::vector<std::string> cases_, small_cases_, whole_cases_, robots_, solids_, keys_;
   std::string snapshot_;
 };

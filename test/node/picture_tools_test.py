@@ -425,7 +425,7 @@ class FilesOfARun(ToolTest):
             (["--vtk", ""], "--vtk: the folder has no name"),
             (["--particles"], "--particles needs --bag FILE"),
             (["--bag", "new", "--vtk", "new"], "--bag and --vtk are both 'new'; give each a name of its own"),
-            (["--save", "new", "--vtk", "./new/"], "--save and --vtk are both 'new'"),
+            (["--save", "new", "--vtk", "./new/"], "--vtk and --save are both './new/'"),
         ):
             self.assert_refused(self.run_program(case, *arguments), words)
         self.assertEqual(self.files(), ["case.yaml", "full"])

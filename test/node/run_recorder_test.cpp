@@ -7,6 +7,7 @@
 
 #include "../common/box_case.h"
 #include "../common/scratch_directory.h"
+#include "wavetank/common/standard_output.h"
 
 namespace wavetank {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 class FileLimit {
  public:
   explicit FileLimit(rlim_t most) {
+    let_writing_fail();  // as the programs do: a signal would end this one
     getrlimit(RLIMIT_FSIZE, &before_);
     rlimit limit = before_;
     limit.rlim_cur = most;
