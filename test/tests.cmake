@@ -153,7 +153,13 @@ foreach(test simulation_bodies_test oclgrind_sph sph_tiling_test sph_thin_plate_
   math(EXPR cost "${cost} - 1")
 endforeach()
 
-# Two at a time, since most of a test's time is one thread's, which compiles kernels. What waits for ROS or measures times runs by itself.
+# Two at a time, since most of a test's time is one thread's, which compiles kernels. Of the tests with a ROS master, which wait much, one runs beside
+# another test; what measures times runs by itself.
+set(master_tests ${all_tests})
+list(FILTER master_tests INCLUDE REGEX "rostest_test_node")
+if(master_tests)
+  set_tests_properties(${master_tests} PROPERTIES RESOURCE_LOCK ros_master COST 50)
+endif()
 set(lone_tests ${all_tests})
-list(REMOVE_ITEM lone_tests ${unit_tests} ${program_tests})
+list(REMOVE_ITEM lone_tests ${unit_tests} ${program_tests} ${master_tests})
 set_tests_properties(${lone_tests} PROPERTIES RUN_SERIAL TRUE)
