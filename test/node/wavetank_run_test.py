@@ -172,7 +172,9 @@ class Bags(ProgramTest):
             self.assertAlmostEqual(volume, (0.4 * 0.2 - 0.08 * 0.08) * 0.02, delta=0.03 * 0.08 * 0.02)
         self.assertEqual((maps[0].encoding, maps[0].width, maps[0].height), ("32FC1", 1, 20))
         heights = numpy.frombuffer(maps[0].data, numpy.float32)
-        self.assertLess(abs(heights - 0.2).max(), 0.002)
+        # a tenth of the spacing; beside the walls of a 2-D tank the surface is up to a quarter of it too low, as docs/pictures.md says
+        self.assertLess(abs(heights[2:-2] - 0.2).max(), 0.002, heights)
+        self.assertLess(abs(heights - 0.2).max(), 0.006, heights)
 
     def test_holds_the_poses_of_what_moves(self):
         case = os.path.join(PACKAGE, "test", "node", "floating_box.yaml")
