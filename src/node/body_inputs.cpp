@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "wavetank/common/log.h"
-#include "wavetank/node/names.h"
+#include "wavetank/scene/names.h"
 
 namespace wavetank {
 

@@ -1,6 +1,6 @@
 #include "wavetank/node/frames.h"
 
-#include "wavetank/node/names.h"
+#include "wavetank/scene/names.h"
 
 namespace wavetank {
 

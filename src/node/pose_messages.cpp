@@ -1,7 +1,7 @@
 #include "wavetank/node/pose_messages.h"
 
 #include "wavetank/node/geometry_messages.h"
-#include "wavetank/node/names.h"
+#include "wavetank/scene/names.h"
 
 namespace wavetank {
 

@@ -21,9 +21,9 @@
 
 #include "wavetank/geometry/layout.h"
 #include "wavetank/instruments/samples.h"
-#include "wavetank/node/names.h"
 #include "wavetank/node/pose_messages.h"
 #include "wavetank/node/stamps.h"
+#include "wavetank/scene/names.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {

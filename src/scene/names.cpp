@@ -1,4 +1,4 @@
-#include "wavetank/node/names.h"
+#include "wavetank/scene/names.h"
 
 #include <algorithm>
 #include <cctype>
