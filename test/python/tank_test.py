@@ -376,6 +376,8 @@ class Cases(TankTest):
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"fluid/spacing": object()})
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"title": "half a pair: \ud83c"})
         self.assert_refused(["case", "path", "dictionary", "5"], wavetank.Tank, 5)
+        gauges = [{"name": "a b", "position": [0.1]}, {"name": "a_b", "position": [0.2]}]
+        self.assert_refused(["'a b'", "'a_b'", "give one of them another name"], wavetank.Tank, self.case(instruments={"wave_gauges": gauges}))
         self.assert_refused(["restore", "path", "5"], wavetank.Tank, self.case(), restore=5)
         self.assert_refused(["settings", "dictionary"], wavetank.Tank, self.case(), ["fluid/spacing"])
         self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
