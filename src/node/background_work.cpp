@@ -34,6 +34,16 @@ void BackgroundWork::hand_over(std::function<void()> piece) {
   changed_.notify_all();
 }
 
+bool BackgroundWork::is_idle() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !waiting_ && !is_working_;
+}
+
+void BackgroundWork::wait() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return !waiting_ && !is_working_; });
+}
+
 void BackgroundWork::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -57,6 +67,7 @@ void BackgroundWork::run() {
       changed_.wait(lock, [this] { return waiting_ || is_over_; });
       if (!waiting_) break;
       piece = std::exchange(waiting_, nullptr);
+      is_working_ = true;
     }
     changed_.notify_all();
     try {
@@ -64,6 +75,13 @@ void BackgroundWork::run() {
     } catch (...) {
       problem = std::current_exception();
     }
+    piece = nullptr;  // and what it holds, before anyone is told that it is done
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_working_ = false;
+      if (problem) waiting_ = nullptr;
+    }
+    changed_.notify_all();
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);

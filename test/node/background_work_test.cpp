@@ -23,6 +23,22 @@ TEST(BackgroundWork, IsDoneInOrder) {
   EXPECT_EQ(done, expected);
 }
 
+TEST(BackgroundWork, IsIdleOnceTheLastPieceIsDone) {
+  BackgroundWork work;
+  EXPECT_TRUE(work.is_idle());
+  std::promise<void> may_end;
+  bool was_done = false;
+  work.hand_over([&] {
+    may_end.get_future().wait();
+    was_done = true;
+  });
+  EXPECT_FALSE(work.is_idle());
+  may_end.set_value();
+  work.wait();
+  EXPECT_TRUE(was_done);
+  EXPECT_TRUE(work.is_idle());
+}
+
 /// A piece waits while the one before it fails: nobody may wait for its turn, which never comes.
 TEST(BackgroundWork, ThatFailsKeepsNobodyWaiting) {
   auto all = std::async(std::launch::async, [] {

@@ -22,6 +22,10 @@ class BackgroundWork {
   void check();
   /// Returns once no other piece waits to be begun. Throws as check().
   void hand_over(std::function<void()> piece);
+  /// Whether nothing is in progress and nothing waits.
+  bool is_idle();
+  /// Until it is idle.
+  void wait();
   /// Waits until all is done; the last call but check(). Throws as check().
   void finish();
 
@@ -32,6 +36,7 @@ class BackgroundWork {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> waiting_;
+  bool is_working_ = false;
   bool is_over_ = false;    ///< nothing more will be handed over
   bool has_ended_ = false;  ///< the thread takes nothing more
   std::exception_ptr problem_;

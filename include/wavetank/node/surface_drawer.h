@@ -2,28 +2,23 @@
 
 #include <ros/time.h>
 
-#include <condition_variable>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 
+#include "wavetank/node/background_work.h"
 #include "wavetank/surface/surface_finder.h"
 
 namespace wavetank {
 
 /// Finds surfaces of the water in a thread of its own. All members but the constructor and the destructor may be called by the simulation's
-/// thread alone.
+/// thread alone. The destructor waits for a surface that is in progress.
 class SurfaceDrawer {
  public:
   /// `done`: called in the drawer's thread with each surface.
   explicit SurfaceDrawer(std::function<void(const WaterSurface&, const ros::Time& stamp)> done);
-  /// After the surface in the making.
-  ~SurfaceDrawer();
-  SurfaceDrawer(const SurfaceDrawer&) = delete;
-  SurfaceDrawer& operator=(const SurfaceDrawer&) = delete;
 
   /// Takes what the simulation's surface is found from at present; while it has another one in the making it waits for that. Never throws:
   /// of what fails here or in the drawer's thread failure() tells, and from then on nothing is drawn.
@@ -33,31 +28,25 @@ class SurfaceDrawer {
   void drop();
   /// Why nothing is drawn any more; empty while all is well.
   std::string failure() const;
-  bool is_idle() const;
+  bool is_idle() { return work_.is_idle(); }
   /// Until it is idle.
-  void wait();
+  void wait() { work_.wait(); }
   /// s of wall time that the last surface took, of the simulation's thread and of the drawer's together.
-  double seconds() const;
+  double seconds() const { return looking_seconds_ + finding_seconds_; }
 
  private:
   void look_at(const Simulation& simulation, const ros::Time& stamp);
-  void find();
+  void find(const WaterField& field, const ros::Time& stamp);
   void give_up();
-  void run();
 
   std::function<void(const WaterSurface&, const ros::Time&)> done_;
   std::unique_ptr<SurfaceFinder> finder_;  ///< made when it is first wanted
   double looking_seconds_ = 0;
-
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<WaterField> field_;
-  ros::Time stamp_;  ///< of the field
-  bool is_dropped_ = false;
-  double finding_seconds_ = 0;
+  std::atomic<double> finding_seconds_ = 0;
+  std::atomic<bool> is_dropped_ = false;
+  mutable std::mutex failure_mutex_;
   std::string failure_;
-  bool stopping_ = false;
-  std::thread thread_;
+  BackgroundWork work_;  ///< the last member: its thread uses the others
 };
 
 }  // namespace wavetank
