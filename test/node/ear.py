@@ -16,9 +16,10 @@ class Ear:
         self.came = {topic: [] for topic in topics}
         # The node begins when its lists are listened to: they come last, once the topics of single instruments are connected.
         self.subscribers = [self.subscribe(topic) for topic in topics if topic not in waited_for]
-        kinds = tuple("/wavetank/%s/" % kind for kind in ("probes", "gauges", "velocities", "sections", "bodies"))
-        single = [subscriber for subscriber in self.subscribers if subscriber.name.startswith(kinds)]
-        self.wait(lambda: all(subscriber.get_num_connections() > 0 for subscriber in single), "a connection to each instrument")
+        kinds = ("probes", "gauges", "velocities", "sections", "bodies", "joint_states")
+        single = [subscriber for subscriber in self.subscribers if any(kind in subscriber.name.split("/") for kind in kinds)]
+        if waited_for:
+            self.wait(lambda: all(subscriber.get_num_connections() > 0 for subscriber in single), "a connection to each instrument")
         self.subscribers += [self.subscribe(topic) for topic in waited_for]
 
     def subscribe(self, topic):
