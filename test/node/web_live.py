@@ -5,6 +5,7 @@ import asyncio
 import json
 import socket
 import sys
+import time
 import unittest
 
 import rospy
@@ -70,10 +71,16 @@ class Web(unittest.TestCase):
         cls.ear = Ear({STATUS: SolverStatus, PROBES: ProbeArray, BOX: Odometry}, waited_for=())
         cls.process, cls.url = start_server()
         cls.addClassCleanup(end, cls.process)
-        cls.ear.wait(lambda: cls.ear.all(BOX) and cls.ear.last(STATUS).phase == SolverStatus.RUNNING, "a pose, and the number of particles")
+        cls.ear.wait(lambda: cls.ear.all(BOX) and cls.ear.all(STATUS) and cls.ear.last(STATUS).phase == SolverStatus.RUNNING, "a pose, and the number of particles")
 
     def phase(self, phase):
         self.ear.wait(lambda: self.ear.last(STATUS).phase == phase, "phase %d" % phase)
+
+    def paused(self):
+        """The state in which it stands, once all that was sent before has been heard."""
+        self.phase(SolverStatus.PAUSED)
+        time.sleep(0.5)
+        return self.ear.last(STATUS)
 
     def test_1_clients(self):
         async def talk():
@@ -98,12 +105,12 @@ class Web(unittest.TestCase):
             self.assertFalse((await client.ask(do="step"))["ok"], "a step while it runs")
             self.assertTrue((await client.ask(do="pause", value=True))["ok"])
             await client.next_of("status", lambda status: status["phase"] == SolverStatus.PAUSED)
-            steps = self.ear.last(STATUS).step
+            steps = self.paused().step
             for bad in ({"do": "step", "much": 1}, {"do": "pause", "value": 0}, {"do": "shutdown"}):
                 self.assertFalse((await client.ask(**bad))["ok"])
             self.assertTrue((await client.ask(do="step"))["ok"])
             await client.next_of("status", lambda status: status["step"] > steps)
-            self.assertEqual(self.ear.last(STATUS).step, steps + 1, "one step, and nothing of what was refused")
+            self.assertEqual(self.paused().step, steps + 1, "one step, and nothing of what was refused")
 
             speed = self.ear.last(BOX).twist.twist.linear.x
             self.assertTrue((await client.ask(do="push", body="box", force=[200, 0, 0], torque=[0, 0, 0]))["ok"])
@@ -127,10 +134,9 @@ class Web(unittest.TestCase):
         browser.wait("window.wavetank && wavetank.received > 2 && wavetank.status && wavetank.status.phase === 1", WAIT)
         self.assertGreater(browser.water_share(), 0.05)
         browser.press("pause")
-        self.phase(SolverStatus.PAUSED)
+        status = self.paused()
         browser.wait("wavetank.status.phase === 2 && document.getElementById('state').textContent === 'paused'")
         last = self.ear.last(PROBES)
-        status = self.ear.last(STATUS)
         start = round(status.header.stamp.to_sec() - status.time)
         self.assertGreaterEqual(start, 1, "the reset before has set stamps on")
         rows = "[...wavetank.plots.all.values()].find((plot) => plot.name === 'probes').rows"
@@ -139,8 +145,8 @@ class Web(unittest.TestCase):
         self.assertLess(browser.get(rows + "[0][0]"), 0.5, "of this run alone, from its beginning")
         browser.wait("document.getElementById('clock').textContent === 't = %.3f s'" % status.time)
         self.assertEqual(self.ear.last(PROBES).header.stamp, last.header.stamp, "paused is paused")
-        time, pressure = browser.get(plot)
-        self.assertAlmostEqual(time, last.header.stamp.to_sec() - start, delta=1e-9)
+        instant, pressure = browser.get(plot)
+        self.assertAlmostEqual(instant, last.header.stamp.to_sec() - start, delta=1e-9)
         self.assertEqual(pressure, last.pressures[0])
         browser.press("reset")
         browser.wait("document.getElementById('clock').textContent === 't = 0.000 s' && %s.every((row) => row[0] === 0)" % rows)
