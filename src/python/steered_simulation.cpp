@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "wavetank/scene/names.h"
-
 namespace wavetank {
 namespace {
 
@@ -14,17 +12,11 @@ SimulationOptions options_of(const ResourceResolver& resolve, const std::functio
   return options;
 }
 
-/// Tables go by the names of topics: two of one name would be one table.
-const Case& with_names_of_their_own(const Case& checked) {
-  check_names(checked);
-  return checked;
-}
-
 }  // namespace
 
 SteeredSimulation::SteeredSimulation(const Case& checked, const ResourceResolver& resolve, const std::string& restore,
                                      std::function<void()> interrupted)
-    : simulation_(with_names_of_their_own(checked), options_of(resolve, interrupted)),
+    : simulation_(checked, options_of(resolve, interrupted)),
       interrupted_(std::move(interrupted)),
       rows_(simulation_.bodies()) {
   if (!restore.empty()) simulation_.restore(restore);

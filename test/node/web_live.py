@@ -71,7 +71,9 @@ class Web(unittest.TestCase):
         cls.ear = Ear({STATUS: SolverStatus, PROBES: ProbeArray, BOX: Odometry}, waited_for=())
         cls.process, cls.url = start_server()
         cls.addClassCleanup(end, cls.process)
-        cls.ear.wait(lambda: cls.ear.all(BOX) and cls.ear.all(STATUS) and cls.ear.last(STATUS).phase == SolverStatus.RUNNING, "a pose, and the number of particles")
+        cls.ear.wait(
+            lambda: cls.ear.all(BOX) and cls.ear.all(STATUS) and cls.ear.last(STATUS).phase == SolverStatus.RUNNING, "a pose, and the number of particles"
+        )
 
     def phase(self, phase):
         self.ear.wait(lambda: self.ear.last(STATUS).phase == phase, "phase %d" % phase)

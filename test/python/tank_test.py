@@ -376,8 +376,9 @@ class Cases(TankTest):
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"fluid/spacing": object()})
         self.assert_refused(["cannot be a value"], wavetank.Tank, self.case(), {"title": "half a pair: \ud83c"})
         self.assert_refused(["case", "path", "dictionary", "5"], wavetank.Tank, 5)
-        gauges = [{"name": "a b", "position": [0.1]}, {"name": "a_b", "position": [0.2]}]
-        self.assert_refused(["'a b'", "'a_b'", "give one of them another name"], wavetank.Tank, self.case(instruments={"wave_gauges": gauges}))
+        moorings = [{"name": "line", "anchor": [x, 0, 0], "attachment": [0, 0, 0], "stiffness": 10.0} for x in (0.1, 0.3)]
+        bodies = [dict(FLYING["bodies"][0], moorings=moorings)]
+        self.assert_refused(["moorings/1/name is line", "a name of its own"], wavetank.Tank, dict(FLYING, bodies=bodies))
         self.assert_refused(["restore", "path", "5"], wavetank.Tank, self.case(), restore=5)
         self.assert_refused(["settings", "dictionary"], wavetank.Tank, self.case(), ["fluid/spacing"])
         self.assert_refused(["settings", "text", "5"], wavetank.Tank, self.case(), {5: 0.02})
