@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""package.xml and .ci/apt.txt name the same things: what rosdep would install from the one is what scripts/install takes from the other."""
+"""package.xml, debian/control and .ci/apt.txt name the same things: what rosdep would install, what apt, and what scripts/install."""
 
 import os
 import re
@@ -96,6 +96,36 @@ class Dependencies(unittest.TestCase):
                         imported.update(re.findall(r"(?m)^ *(?:import|from) (\w+_msgs|ros\w+|tf2_\w+|interactive_markers)\b", file.read()))
         self.assertIn("rospy", imported)
         self.assertEqual({name for name in imported if name not in self.keys and "python3-" + name not in self.keys}, set())
+
+
+class DebianPackages(unittest.TestCase):
+    """debian/ goes by the same list."""
+
+    def setUp(self):
+        with open(os.path.join(ROOT, "debian", "control"), encoding="utf-8") as file:
+            paragraphs = file.read().strip().split("\n\n")
+        self.source, self.package, self.headers = (dict(re.findall(r"(?ms)^([\w-]+):(.*?)(?=^\S|\Z)", paragraph)) for paragraph in paragraphs)
+        self.groups = groups()
+
+    @staticmethod
+    def names(field):
+        return {match for part in field.split(",") for match in re.findall(r"^\s*([a-z][\w.+-]*)", part)}
+
+    def test_is_built_with_the_lists_groups(self):
+        wanted = self.groups["build"] | self.groups["python"] | self.groups["surface"]
+        self.assertEqual(self.names(self.source["Build-Depends"]), (wanted - {"build-essential"}) | {"debhelper-compat", "dh-python"})
+
+    def test_runs_with_the_lists_groups(self):
+        self.assertEqual(self.names(self.package["Depends"]), self.groups["run"])
+        self.assertLessEqual(self.groups["rviz"] | self.groups["tools"] | self.groups["web"], self.names(self.package["Recommends"]))
+
+    def test_headers_come_with_those_that_they_include(self):
+        self.assertLessEqual({"wavetank", "libeigen3-dev", "libroscpp-dev"}, self.names(self.headers["Depends"]))
+
+    def test_version(self):
+        with open(os.path.join(ROOT, "debian", "changelog"), encoding="utf-8") as file:
+            (version,) = re.findall(r"^wavetank \((.*?)\)", file.readline())
+        self.assertEqual(version, xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).find("version").text)
 
 
 if __name__ == "__main__":
