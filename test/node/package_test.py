@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """package.xml, debian/control and .ci/apt.txt name the same things: what rosdep would install, what apt, and what scripts/install."""
 
+import ast
 import os
 import re
 import unittest
@@ -96,6 +97,22 @@ class Dependencies(unittest.TestCase):
                         imported.update(re.findall(r"(?m)^ *(?:import|from) (\w+_msgs|ros\w+|tf2_\w+|interactive_markers)\b", file.read()))
         self.assertIn("rospy", imported)
         self.assertEqual({name for name in imported if name not in self.keys and "python3-" + name not in self.keys}, set())
+
+
+class OldPython(unittest.TestCase):
+    def test_every_file_is_python_3_8(self):
+        """As far as its grammar goes: Ubuntu 20.04 has that one."""
+        sources = []
+        for folder in ("scripts", "src", "test", "config"):
+            for where, _, names in os.walk(os.path.join(ROOT, folder)):
+                for name in names:
+                    with open(os.path.join(where, name), "rb") as file:
+                        text = file.read()
+                    if name.endswith(".py") or re.match(rb"#!.*python", text):
+                        sources.append((os.path.join(where, name), text))
+        self.assertGreater(len(sources), 80)
+        for path, text in sources:
+            ast.parse(text, path, feature_version=(3, 8))
 
 
 class DebianPackages(unittest.TestCase):
