@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# docker_in_chroot.sh FOLDER
+# docker_in_chroot.sh FOLDER [COMMAND...]
 # The steps of the Dockerfile without Docker: a Debian 12 by debootstrap in FOLDER, which is made unless it is there, in which every COPY, RUN and ENV is done as it
-# stands, and then what a container would start. As root; some 3 GB, and the time of a build. DEBIAN_MIRROR names another mirror.
+# stands, and then what a container would start, or the command. As root; some 3 GB, and the time of a build. DEBIAN_MIRROR names another mirror.
 set -euo pipefail
 
 fail() {
@@ -9,7 +9,7 @@ fail() {
   exit 1
 }
 
-[ $# -eq 1 ] && [ -n "$1" ] || fail "takes one argument, the folder of the Debian that is made."
+[ $# -ge 1 ] && [ -n "$1" ] || fail "takes the folder of the Debian that is made, and may be given what to start in it."
 [ "$(id -u)" -eq 0 ] || fail "a Debian in a folder can only be made by root."
 command -v debootstrap > /dev/null || fail "debootstrap is not installed."
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -54,5 +54,6 @@ while read -r word rest; do
   esac
 done < "$root/Dockerfile"
 
+[ $# -eq 1 ] || command=("${@:2}")
 echo "${entry[*]} ${command[*]}"
 inside "${entry[@]}" "${command[@]}"
