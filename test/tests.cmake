@@ -121,11 +121,14 @@ endif()
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)
   find_package(rostest REQUIRED)
-  foreach(name wavetank_run_test reliability_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_test pages_test)
+  foreach(name wavetank_run_test reliability_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_test pages_test package_test)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
     list(APPEND program_tests node_${name})
   endforeach()
+  add_test(NAME node_install_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_BUILD=${CMAKE_BINARY_DIR}
+    ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/install_test.py -v)
+  list(APPEND program_tests node_install_test)
   add_test(NAME validation_compare_motion_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/compare_motion_test.py -v)
   add_test(NAME validation_wave_kinds_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/wave_kinds_test.py -v)
   list(APPEND program_tests validation_compare_motion_test validation_wave_kinds_test)

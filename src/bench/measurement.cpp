@@ -63,6 +63,7 @@ std::vector<KernelSeries> kernels_of(const std::vector<Block>& blocks) {
       values.values.push_back(time != nullptr ? 1e3 * time->seconds / block.steps : 0);
     }
   std::vector<KernelSeries> result;
+  result.reserve(series.size());
   for (const auto& [kernel, values] : series) result.push_back({kernel, values});
   std::stable_sort(result.begin(), result.end(),
                    [](const KernelSeries& a, const KernelSeries& b) { return a.milliseconds.median() > b.milliseconds.median(); });

@@ -145,6 +145,7 @@ VolumeDifference volume_difference(const TriangleMesh& mesh, const std::vector<C
   const int lines = dimensions == 2 ? 1024 : 64;  // along each axis
   const Vector3d step = (box.max - box.min) / lines;
   std::vector<double> abscissae;
+  abscissae.reserve(lines);
   for (int i = 0; i < lines; ++i) abscissae.push_back(box.min.x() + (i + 0.5003) * step.x());
   if (dimensions == 2) {
     const std::vector<Stretches> in_mesh = section_along(mesh, abscissae);

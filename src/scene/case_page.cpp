@@ -15,9 +15,9 @@ A case is one YAML file, given to `wavetank_run` or to the launch files, or the 
 set on the command line, as in `--set fluid/spacing=0.02`; entries of a list are counted from 0 (`--set instruments/pressure_probes/0/position=[1,0.5,0]`),
 and the number after the last adds one. Setting a key of one alternative (`fluid/particles`) removes those of the others (`fluid/spacing`).
 
-All values are in SI units but angles, which are in degrees; z points up unless `gravity` says otherwise. Keys that are not listed here, wrong types and values out of range are
-refused. A default stands for a key that is left out; the others are required, where alternatives are marked (a), (b): with the one that is given.
-N is the index of an entry in a list.
+All values are in SI units but angles, which are in degrees; z points up unless `gravity` says otherwise. Keys that are not listed here, wrong types and values
+out of range are refused. A default stands for a key that is left out; the others are required, where alternatives are marked (a), (b): with the one that is
+given. N is the index of an entry in a list.
 
 This page is generated from the keys that the program declares; a test compares the two.
 )";

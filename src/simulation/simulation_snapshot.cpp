@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "fnv_hash.h"
 #include "simulation_parts.h"
 #include "snapshot.h"
 #include "wavetank/common/log.h"
@@ -9,14 +10,11 @@
 namespace wavetank {
 namespace {
 
-/// Tells one geometry, prescribed motions, absorptions and laws of flow from others (FNV-1a): a case names its meshes and records, but does
+/// Tells one geometry, prescribed motions, absorptions and laws of flow from others: a case names its meshes and records, but does
 /// not hold them.
 std::uint64_t fingerprint(const Case& scene, const Layout& layout, const RigidWorld& world, const std::vector<FlowLaw>& laws) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto add = [&hash](const double* values, std::size_t count) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-    for (std::size_t k = 0; k < count * sizeof(double); ++k) hash = (hash ^ bytes[k]) * 1099511628211ULL;
-  };
+  std::uint64_t hash = fnv_1a(nullptr, 0);
+  const auto add = [&hash](const double* values, std::size_t count) { hash = fnv_1a(values, count * sizeof(double), hash); };
   for (const Vector3d& particle : layout.particles) add(particle.data(), 3);
   for (const WallElement& wall : layout.walls) {
     add(wall.centre.data(), 3);

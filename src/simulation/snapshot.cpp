@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "fnv_hash.h"
 #include "wavetank/common/error.h"
 #include "wavetank/common/whole_file.h"
 
@@ -14,13 +15,6 @@ namespace {
 
 constexpr char magic[] = "wavetank snapshot 5\n";
 constexpr std::size_t magic_size = sizeof magic - 1;
-
-/// FNV-1a over 64 bits: finds truncation and damage, which is all that is asked of it.
-std::uint64_t checksum(const char* bytes, std::size_t size) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 1099511628211ULL;
-  return hash;
-}
 
 class Writer {
  public:
@@ -83,7 +77,7 @@ void write_snapshot(const std::string& path, const Snapshot& snapshot) {
   writer.block(snapshot.bodies);
   writer.block(snapshot.openings);
   writer.block(snapshot.fluid);
-  writer.value(checksum(writer.bytes.data(), writer.bytes.size()));
+  writer.value(fnv_1a(writer.bytes.data(), writer.bytes.size()));
 
   write_whole(path, {writer.bytes.data(), writer.bytes.size()}, "the snapshot");
 }
@@ -101,7 +95,7 @@ Snapshot read_snapshot(const std::string& path) {
   std::uint64_t stored = 0;
   if (bytes.size() < magic_size + sizeof stored) throw Error(damage);
   std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
-  if (stored != checksum(bytes.data(), bytes.size() - sizeof stored)) throw Error(damage);
+  if (stored != fnv_1a(bytes.data(), bytes.size() - sizeof stored)) throw Error(damage);
 
   Snapshot snapshot;
   Reader reader(bytes, magic_size, damage);

@@ -58,6 +58,29 @@ class Pages(unittest.TestCase):
         self.assertEqual(listed, {os.path.relpath(page, DOCS) for page in pages() if page.startswith(DOCS)})
 
 
+class References(unittest.TestCase):
+    def setUp(self):
+        self.page = text_of(os.path.join(DOCS, "references.md"))
+
+    def test_each_has_its_year_and_how_it_is_found(self):
+        entries = [" ".join(entry.split()) for entry in re.findall(r"(?ms)^- (.*?)(?=^- |^#|\Z)", self.page)]
+        self.assertGreater(len(entries), 30)
+        for entry in entries:
+            with self.subTest(entry[:80]):
+                self.assertRegex(entry, r"\((19|20)\d\d\)")
+                self.assertRegex(entry, r"\]\(https://doi\.org/10\.\d{4}/\S+\)$|DOI( is not known here)?\.$")
+
+    def test_whoever_is_cited_with_a_year_is_there(self):
+        name = r"[A-ZŽ][\wéèöüäžć-]+"
+        cited = set()
+        for page in set(pages()) - {os.path.join(DOCS, "references.md")}:
+            text = re.sub(r"\s+", " ", without_code(text_of(page)))
+            cited.update(re.findall(r"(%s)(?: (?:and|&) %s| et al\.)?,? \(?(?:19|20)\d\d\b" % (name, name), text))
+        self.assertLessEqual({"Mansard", "Madsen", "Ursell"}, cited)
+        for author in sorted(cited):
+            self.assertIn(author, self.page)
+
+
 class Version(unittest.TestCase):
     def test_is_the_packages(self):
         (version,) = re.findall(r"<version>(.*)</version>", text_of(os.path.join(ROOT, "package.xml")))

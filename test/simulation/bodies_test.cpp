@@ -219,7 +219,7 @@ TEST(Bodies, RestOnTheFloorUnderWater) {
   }
   std::printf("on the floor: off it by at most %.3f spacings, fastest %.1e m/s\n", deepest / 0.01, fastest);
   EXPECT_LT(deepest, 0.001) << "a tenth of the spacing";
-  EXPECT_LT(fastest, 1e-3);
+  EXPECT_LT(fastest, 1e-6) << "4e-10 is measured; a contact that trembles has g Δt, 1e-3";
 }
 
 // Water creeps under what stands flush on the floor, where no particle fits: it feels Archimedes' force there too, to what the rim's
