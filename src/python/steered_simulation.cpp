@@ -16,9 +16,7 @@ SimulationOptions options_of(const ResourceResolver& resolve, const std::functio
 
 SteeredSimulation::SteeredSimulation(const Case& checked, const ResourceResolver& resolve, const std::string& restore,
                                      std::function<void()> interrupted)
-    : simulation_(checked, options_of(resolve, interrupted)),
-      interrupted_(std::move(interrupted)),
-      rows_(simulation_.bodies()) {
+    : simulation_(checked, options_of(resolve, interrupted)), interrupted_(std::move(interrupted)), rows_(simulation_.bodies()) {
   if (!restore.empty()) simulation_.restore(restore);
   rows_.add(simulation_.take_samples());
 }
