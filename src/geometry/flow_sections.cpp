@@ -94,6 +94,7 @@ FlowSection place_section(const FlowSectionCase& given, const Basin& basin, cons
 std::vector<FlowSection> place_sections(const std::vector<FlowSectionCase>& sections, const Basin& basin, const OpenSpace& open,
                                         double spacing) {
   std::vector<FlowSection> placed;
+  placed.reserve(sections.size());
   for (const FlowSectionCase& section : sections) placed.push_back(place_section(section, basin, open, spacing));
   return placed;
 }

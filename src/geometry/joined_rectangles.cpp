@@ -73,10 +73,12 @@ std::vector<Rectangle> joined_along(std::vector<Rectangle> rectangles, int along
 std::vector<WallElement> joined_rectangles(const std::vector<WallElement>& elements, double spacing, int dimensions) {
   const double hair = 1e-4 * spacing;
   std::vector<Rectangle> rectangles;
+  rectangles.reserve(elements.size());
   for (const WallElement& element : elements) rectangles.push_back(rectangle_of(element, dimensions));
   rectangles = joined_along(std::move(rectangles), 0, hair);
   if (dimensions == 3) rectangles = joined_along(std::move(rectangles), 1, hair);
   std::vector<WallElement> joined;
+  joined.reserve(rectangles.size());
   for (const Rectangle& rectangle : rectangles) joined.push_back(element_of(rectangle, dimensions));
   return joined;
 }
