@@ -115,7 +115,9 @@ add_test(NAME bench_wavetank_check_test COMMAND ${CMAKE_COMMAND} -E env WAVETANK
 if(WAVETANK_ROS)
   add_test(NAME python_tank_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
     WAVETANK_PYTHON=$<$<BOOL:${WAVETANK_PYTHON}>:ON> ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/python/tank_test.py -v)
-  list(APPEND program_tests python_tank_test)
+  add_test(NAME python_notebooks_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_PYTHON=$<$<BOOL:${WAVETANK_PYTHON}>:ON>
+    ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/python/notebooks_test.py -v)
+  list(APPEND program_tests python_tank_test python_notebooks_test)
 endif()
 
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.

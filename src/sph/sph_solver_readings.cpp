@@ -122,6 +122,8 @@ FluidState SphSolver<Real>::download() {
   const Real* const pressure = component(state, "pressure");
   const Real* const compression = component(state, "compression");
   const Real* const mass = component(state, "mass");
+  for (auto* const vectors : {&fluid.position, &fluid.velocity}) vectors->reserve(count_);
+  for (auto* const numbers : {&fluid.pressure, &fluid.compression, &fluid.mass}) numbers->reserve(count_);
   for (int i = 0; i < count_; ++i) {
     fluid.position.push_back(place_of(state, i));
     fluid.velocity.push_back(velocity_of(state, i));

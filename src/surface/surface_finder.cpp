@@ -32,6 +32,11 @@ constexpr double most_blocks = 2e8;
 
 float value_of(float filling, float walls) { return std::clamp(std::min(filling - half_full, slope * walls), dry, -dry); }
 
+Node moved_along(Node node, int axis, int way) {
+  node[axis] += way;
+  return node;
+}
+
 /// Where the particles are, by blocks of two nodes along each direction. All are finite, and not far away.
 class Blocks {
  public:
@@ -111,15 +116,18 @@ struct SurfaceFinder::Parts {
   void leave_out_lost(std::vector<Eigen::Vector3f>& particles) const;
   /// In spacings, of all walls where they are now.
   float to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const;
+  float to_walls_at_rest(const Node& node) const;
+  float to_wall(std::size_t owner, const Node& node, const Vector3d& place, const std::vector<std::optional<RigidState>>& moved) const;
   std::vector<std::optional<RigidState>> moved_owners(const RigidWorld& world) const;
-  float to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved) const;
+  float to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved, bool in_moving_owners) const;
   void leave_out_beyond(const std::vector<std::optional<RigidState>>& moved, std::vector<Eigen::Vector3f>& particles) const;
   Vector3d as_given(const Vector3d& place, std::size_t owner, const std::vector<std::optional<RigidState>>& moved) const;
   Contour contour_of(const std::vector<NodeValue>& values) const;
-  std::vector<float> sharpened(const WaterField& field) const;
+  std::vector<float> drawn_to_walls(const WaterField& field, const NodeValues<int>& numbers) const;
+  std::vector<float> sharpened(const WaterField& field, const std::vector<float>& filling, const NodeValues<int>& numbers) const;
   std::vector<NodeValue> slab(const std::vector<NodeValue>& plane) const;
-  std::vector<Eigen::Vector3f> spray(const WaterField& field, const std::vector<float>& sharpened) const;
-  HeightMap height_map(const std::vector<NodeValue>& values) const;
+  std::vector<Eigen::Vector3f> spray(const WaterField& field, const std::vector<float>& sharpened, const NodeValues<int>& numbers) const;
+  HeightMap height_map(const std::vector<NodeValue>& values, const NodeValues<int>& numbers) const;
 
   int dimensions;
   double blur;  ///< variance of the kernel along an axis, with what the contour adds, spacings²
@@ -131,7 +139,9 @@ struct SurfaceFinder::Parts {
   std::vector<bool> moving;
   std::vector<Vector3d> references;
   std::array<bool, 3> periodic;
-  std::vector<std::unique_ptr<WallDistances>> walls;  ///< of each owner, where the layout has it
+  std::vector<std::unique_ptr<WallDistances>> walls;                                 ///< of each owner, where the layout has it
+  bool any_moves = false;                                                            ///< of the owners
+  mutable NodeValues<float> walls_at_rest{std::numeric_limits<float>::quiet_NaN()};  ///< as far as they were asked for; of look_at alone
   std::size_t most_triangles = 0;
 };
 
@@ -150,6 +160,7 @@ SurfaceFinder::Parts::Parts(const Simulation& simulation)
   reach.max.array() += WallDistances::reach * grid.cell;
   openings = layout.openings;
   moving = layout.moving;
+  any_moves = std::any_of(moving.begin() + 1, moving.end(), [](bool moves) { return moves; });
   for (int axis = 0; axis < 3; ++axis) periodic[axis] = simulation.scene().tank.periodic[axis];
   for (std::size_t o = 0; o < simulation.bodies().count(); ++o) {
     references.push_back(simulation.bodies().reference(o));
@@ -181,24 +192,44 @@ Vector3d SurfaceFinder::Parts::as_given(const Vector3d& place, std::size_t owner
 }
 
 float SurfaceFinder::Parts::to_walls(const Node& node, const std::vector<std::optional<RigidState>>& moved) const {
-  float least = WallDistances::reach;
+  float& at_rest = walls_at_rest[node];
+  if (std::isnan(at_rest)) at_rest = to_walls_at_rest(node);
+  float least = at_rest;
+  if (!any_moves) return least;
   const Vector3d place = grid.place(node);
-  for (std::size_t o = 0; o < walls.size(); ++o) {
-    const Vector3d given = as_given(place, o, moved);
-    const Box& box = walls[o]->box();
-    if ((given.array() < box.min.array()).any() || (given.array() > box.max.array()).any()) continue;
-    least = std::min(least, moved[o] ? walls[o]->at(given) : walls[o]->at(node));
-  }
-  for (int axis = 0; axis < 3; ++axis)  // where the water goes on at the other end
-    if (periodic[axis])
-      least = std::min(least, static_cast<float>(std::min(place[axis] - domain.min[axis], domain.max[axis] - place[axis]) / grid.cell));
-  return std::min(least, to_openings(place, moved));
+  for (std::size_t o = 0; o < walls.size(); ++o)
+    if (moving[o]) least = std::min(least, to_wall(o, node, place, moved));
+  return std::min(least, to_openings(place, moved, true));
 }
 
-/// In spacings, to the nearest opening, as if it were a wall: negative in the pocket behind it, whose water is not the tank's.
-float SurfaceFinder::Parts::to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved) const {
+/// Of those that never move, of openings in these, and where the water goes on at the tank's other end.
+float SurfaceFinder::Parts::to_walls_at_rest(const Node& node) const {
+  const std::vector<std::optional<RigidState>> none(walls.size());
+  const Vector3d place = grid.place(node);
+  float least = WallDistances::reach;
+  for (std::size_t o = 0; o < walls.size(); ++o)
+    if (!moving[o]) least = std::min(least, to_wall(o, node, place, none));
+  for (int axis = 0; axis < 3; ++axis)
+    if (periodic[axis])
+      least = std::min(least, static_cast<float>(std::min(place[axis] - domain.min[axis], domain.max[axis] - place[axis]) / grid.cell));
+  return std::min(least, to_openings(place, none, false));
+}
+
+float SurfaceFinder::Parts::to_wall(std::size_t owner, const Node& node, const Vector3d& place,
+                                    const std::vector<std::optional<RigidState>>& moved) const {
+  const Vector3d given = as_given(place, owner, moved);
+  const Box& box = walls[owner]->box();
+  if ((given.array() < box.min.array()).any() || (given.array() > box.max.array()).any()) return WallDistances::reach;
+  return moved[owner] ? walls[owner]->at(given) : walls[owner]->at(node);
+}
+
+/// In spacings, to the nearest opening in owners that move, or in those that do not, as if it were a wall: negative in the pocket behind
+/// it, whose water is not the tank's.
+float SurfaceFinder::Parts::to_openings(const Vector3d& place, const std::vector<std::optional<RigidState>>& moved,
+                                        bool in_moving_owners) const {
   double least = WallDistances::reach;
   for (const Opening& opening : openings) {
+    if (moving[opening.owner] != in_moving_owners) continue;
     const Vector3d way = (as_given(place, opening.owner, moved) - opening.centre) / grid.cell;
     const double before = way.dot(opening.normal);
     if (before < -opening.pocket / grid.cell - 1 || before > least) continue;
@@ -217,26 +248,50 @@ float SurfaceFinder::Parts::to_openings(const Vector3d& place, const std::vector
 void SurfaceFinder::Parts::leave_out_beyond(const std::vector<std::optional<RigidState>>& moved,
                                             std::vector<Eigen::Vector3f>& particles) const {
   if (openings.empty()) return;
-  const auto is_beyond = [&](const Eigen::Vector3f& at) { return to_openings(at.cast<double>(), moved) < 0; };
+  const auto is_beyond = [&](const Eigen::Vector3f& at) {
+    const Vector3d place = at.cast<double>();
+    return to_openings(place, moved, false) < 0 || to_openings(place, moved, true) < 0;
+  };
   particles.erase(std::remove_if(particles.begin(), particles.end(), is_beyond), particles.end());
 }
 
-/// The filling less half the blur's variance times its Laplacian: without what that rounds off where the surface is curved.
-std::vector<float> SurfaceFinder::Parts::sharpened(const WaterField& field) const {
-  constexpr float in_walls = -1;
-  NodeValues<float> known(0);
-  for (std::size_t n = 0; n < field.nodes.size(); ++n) known[field.nodes[n]] = field.walls[n] > 0 ? field.filling[n] : in_walls;
+/// Particles stand up to 0.9 spacings off a wall where the surface meets it, not half a one, so that the kernel finds less water there, by
+/// 0.08 at most at rest. Nodes next to a wall take that from those behind them, as seen from the wall.
+std::vector<float> SurfaceFinder::Parts::drawn_to_walls(const WaterField& field, const NodeValues<int>& numbers) const {
+  constexpr float most = 0.08F;
   std::vector<float> result = field.filling;
+  for (std::size_t n = 0; n < field.nodes.size(); ++n) {
+    if (field.walls[n] <= 0 || field.walls[n] >= 1) continue;
+    int behind = -1;
+    float farthest = field.walls[n] + 0.5F;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int way : {-1, 1}) {
+        if (dimensions == 2 && axis == 1) continue;
+        const int beside = numbers.at(moved_along(field.nodes[n], axis, way));
+        if (beside < 0 || field.walls[beside] <= farthest) continue;
+        farthest = field.walls[beside];
+        behind = beside;
+      }
+    if (behind >= 0) result[n] += std::clamp(field.filling[behind] - field.filling[n], 0.0F, most);
+  }
+  return result;
+}
+
+/// The filling less half the blur's variance times its Laplacian: without what that rounds off where the surface is curved.
+std::vector<float> SurfaceFinder::Parts::sharpened(const WaterField& field, const std::vector<float>& filling,
+                                                   const NodeValues<int>& numbers) const {
+  std::vector<float> result = filling;
   for (std::size_t n = 0; n < field.nodes.size(); ++n) {
     if (field.walls[n] <= 0) continue;
     float laplacian = 0;
     for (int axis = 0; axis < 3; ++axis)
       for (const int way : {-1, 1}) {
         if (dimensions == 2 && axis == 1) continue;
-        Node beside = field.nodes[n];
-        beside[axis] += way;
-        const float value = known.at(beside);
-        if (value != in_walls) laplacian += value - field.filling[n];
+        const int beside = numbers.at(moved_along(field.nodes[n], axis, way));
+        if (beside < 0)
+          laplacian -= filling[n];
+        else if (field.walls[beside] > 0)
+          laplacian += filling[beside] - filling[n];
       }
     result[n] -= static_cast<float>(0.5 * blur) * laplacian;
   }
@@ -270,10 +325,8 @@ std::vector<NodeValue> SurfaceFinder::Parts::slab(const std::vector<NodeValue>& 
 
 /// Particles where the water between the nodes about them, leaving out those in walls, is not half full. By the same filling as the mesh,
 /// so that each is in one of the two.
-std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field, const std::vector<float>& sharpened) const {
-  constexpr float in_walls = -10;  // below what sharpening makes of air
-  NodeValues<float> filling(0);
-  for (std::size_t n = 0; n < field.nodes.size(); ++n) filling[field.nodes[n]] = field.walls[n] > 0 ? sharpened[n] : in_walls;
+std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field, const std::vector<float>& sharpened,
+                                                         const NodeValues<int>& numbers) const {
   std::vector<Eigen::Vector3f> found;
   for (const Eigen::Vector3f& particle : field.particles) {
     const Eigen::Vector3f where = grid.in_cells(particle.cast<double>()).cast<float>();
@@ -288,9 +341,9 @@ std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field
         node[axis] = static_cast<int>(low[axis]) + (is_far ? 1 : 0);
       }
       if (weight <= 0) continue;
-      const float value = filling.at(node);
-      if (value == in_walls) continue;
-      sum += weight * value;
+      const int number = numbers.at(node);
+      if (number >= 0 && field.walls[number] <= 0) continue;
+      if (number >= 0) sum += weight * sharpened[number];
       weights += weight;
     }
     if (weights > 0 && sum < half_full * weights) found.push_back(particle);
@@ -298,7 +351,7 @@ std::vector<Eigen::Vector3f> SurfaceFinder::Parts::spray(const WaterField& field
   return found;
 }
 
-HeightMap SurfaceFinder::Parts::height_map(const std::vector<NodeValue>& values) const {
+HeightMap SurfaceFinder::Parts::height_map(const std::vector<NodeValue>& values, const NodeValues<int>& numbers) const {
   // the two directions across the top's axis; in 2-D there is one
   const int down_rows = dimensions == 2 ? 2 - top.axis : std::min((top.axis + 1) % 3, (top.axis + 2) % 3);
   const int along_row = 3 - top.axis - down_rows;
@@ -312,14 +365,11 @@ HeightMap SurfaceFinder::Parts::height_map(const std::vector<NodeValue>& values)
   map.first = grid.origin + grid.cell * ((map.rows - 1) * Vector3d::Unit(down_rows) + (map.columns - 1) * Vector3d::Unit(along_row));
   map.first[top.axis] = 0;
   map.heights.assign(static_cast<std::size_t>(map.rows) * map.columns, std::numeric_limits<float>::quiet_NaN());
-  NodeValues<float> known(dry);
-  for (const NodeValue& each : values) known[each.node] = each.value;
   for (const NodeValue& each : values) {
     const int row = map.rows - 1 - each.node[down_rows], column = map.columns - 1 - each.node[along_row];
     if (each.value < 0 || row < 0 || row >= map.rows || column < 0 || column >= map.columns) continue;
-    Node over = each.node;
-    over[top.axis] += top.way;
-    const float above = known.at(over);
+    const int over = numbers.at(moved_along(each.node, top.axis, top.way));
+    const float above = over < 0 ? dry : values[over].value;
     if (above >= 0) continue;
     const float part = each.value / (each.value - above);
     const auto height = static_cast<float>(grid.place(each.node)[top.axis] + top.way * part * grid.cell);
@@ -389,7 +439,9 @@ WaterSurface SurfaceFinder::find(const WaterField& field) const {
   const Parts& parts = *parts_;
   std::vector<NodeValue> values;
   values.reserve(field.nodes.size());
-  const std::vector<float> filling = parts.sharpened(field);
+  NodeValues<int> numbers(-1);  // of the field's nodes
+  for (std::size_t n = 0; n < field.nodes.size(); ++n) numbers[field.nodes[n]] = static_cast<int>(n);
+  const std::vector<float> filling = parts.sharpened(field, parts.drawn_to_walls(field, numbers), numbers);
   for (std::size_t n = 0; n < field.nodes.size(); ++n) values.push_back({field.nodes[n], value_of(filling[n], field.walls[n])});
   Contour found = parts.contour_of(parts.dimensions == 2 ? parts.slab(values) : values);
   WaterSurface surface;
@@ -400,8 +452,8 @@ WaterSurface SurfaceFinder::find(const WaterField& field) const {
     surface.vertices.push_back(place.cast<float>());
   }
   surface.triangles = std::move(found.triangles);
-  surface.spray = parts.spray(field, filling);
-  surface.heights = parts.height_map(values);
+  surface.spray = parts.spray(field, filling, numbers);
+  surface.heights = parts.height_map(values, numbers);
   return surface;
 }
 

@@ -81,6 +81,20 @@ class References(unittest.TestCase):
             self.assertIn(author, self.page)
 
 
+class Gallery(unittest.TestCase):
+    def test_has_every_demo_and_its_picture(self):
+        demos = {name[: -len(".yaml")] for name in os.listdir(os.path.join(ROOT, "config")) if name.endswith(".yaml")}
+        demos |= {name[: -len(".launch")] for name in os.listdir(os.path.join(ROOT, "launch"))} - {"wavetank"}
+        text, whole = text_of(os.path.join(DOCS, "gallery.md")), 0
+        self.assertEqual(set(re.findall(r"(?m)^## (\w+)$", text)), demos, "scripts/validate gallery writes it, of the list in test/validation/gallery.py")
+        for demo in demos:
+            self.assertIn("(images/gallery/%s.jpg)" % demo, text)
+            size = os.path.getsize(os.path.join(DOCS, "images", "gallery", demo + ".jpg"))
+            self.assertLess(size, 60e3, demo)
+            whole += size
+        self.assertLess(whole, 1.5e6)
+
+
 class Version(unittest.TestCase):
     def test_is_the_packages(self):
         (version,) = re.findall(r"<version>(.*)</version>", text_of(os.path.join(ROOT, "package.xml")))

@@ -72,11 +72,12 @@ def runs(process):
         return False
 
 
-def read_png(path):
+def read_picture(path):
     """Rows of red, green and blue, 0 to 1."""
     from matplotlib import image
 
-    return image.imread(path)[:, :, :3]
+    picture = image.imread(path)[:, :, :3]
+    return picture / 255.0 if picture.dtype == numpy.uint8 else picture
 
 
 def blue_part(picture):
@@ -95,13 +96,15 @@ class Render(ToolTest):
         bag = self.bag()
         done = self.run_tool("render", bag, "-o", "water.png", "--at", "0.05", "--size", "320x180")
         self.assertEqual(done.returncode, 0, done.stderr)
-        picture = read_png(self.path("water.png"))
+        picture = read_picture(self.path("water.png"))
         self.assertEqual(picture.shape, (180, 320, 3))
         self.assertGreater(blue_part(picture), 0.05)
         hull = orange(picture)
         self.assertGreater(numpy.mean(hull), 0.002)
-        self.assertEqual(self.run_tool("render", bag, "-o", "later.png", "--at", "0.16", "--size", "320x180").returncode, 0)
-        later = orange(read_png(self.path("later.png")))
+        self.assertEqual(self.run_tool("render", bag, "-o", "later.jpg", "--at", "0.16", "--size", "320x180").returncode, 0)
+        with open(self.path("later.jpg"), "rb") as file:
+            self.assertEqual(file.read(3), b"\xff\xd8\xff")
+        later = orange(read_picture(self.path("later.jpg")))
         self.assertLess(numpy.nonzero(later)[0].mean(), numpy.nonzero(hull)[0].mean() - 5)  # it rises
 
     @unittest.skipUnless(CAN_DRAW, MISSING)
@@ -109,7 +112,7 @@ class Render(ToolTest):
         bag = self.bag(clouds=False, surface=True)
         done = self.run_tool("render", bag, "-o", "water.png", "--size", "320x180", "--eye", "-0.3,-1.5,1.6", "--target", "0.5,0.5,0.4")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertGreater(blue_part(read_png(self.path("water.png"))), 0.05)
+        self.assertGreater(blue_part(read_picture(self.path("water.png"))), 0.05)
 
     @unittest.skipUnless(CAN_FILM, MISSING)
     def test_a_film_has_the_pictures_of_its_time(self):
@@ -184,7 +187,7 @@ class Render(ToolTest):
         for arguments, words in (
             (["none.bag", "-o", "a.png"], "there is no bag 'none.bag'"),
             (["dry.bag", "-o", "a.png"], "holds no water, neither a surface nor point clouds: write it with wavetank_run --surface, --particles or --clouds"),
-            ([bag, "-o", "a.avi"], "'a.avi': films end in .mp4 or .gif, pictures in .png"),
+            ([bag, "-o", "a.avi"], "'a.avi': films end in .mp4 or .gif, pictures in .png or .jpg"),
             ([bag, "-o", "no/such/a.png"], "there is no folder"),
             ([bag, "-o", "a.png", "--at", "0.5"], "--at 0.5 s is outside of what 'water.bag' has of the water: from 0.05 to 0.15 s"),
             ([bag, "-o", "a.mp4", "--from", "-1"], "--from -1 s is outside"),
@@ -312,7 +315,7 @@ class Files(ToolTest):
         command = ["xvfb-run", "-a", "pvpython", "out/view.py", "--png", "seen.png", "--at", "0.05", "--size", "320x180"]
         done = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=120)
         self.assertTrue(os.path.exists(self.path("seen.png")), done.stdout)
-        picture = read_png(self.path("seen.png"))
+        picture = read_picture(self.path("seen.png"))
         self.assertEqual(picture.shape, (180, 320, 3))
         red, green, blue = (picture[:, :, k] for k in range(3))
         self.assertGreater(numpy.mean(numpy.abs(red - blue) > 0.25), 0.05)  # the water, from blue to red by its speed

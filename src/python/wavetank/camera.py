@@ -75,7 +75,8 @@ def fitting(low, high, dimensions, aspect):
     middle, half = (low + high) / 2, numpy.maximum((high - low) / 2, 1e-6)
     tangent = numpy.tan(numpy.radians(ANGLE / 2))
     if dimensions == 2:
-        distance = 1.12 * max(half[2] / tangent, half[0] / tangent / aspect)
+        distance = max(1.25 * half[2] / tangent, 1.12 * half[0] / tangent / aspect)
+        middle[2] -= 0.1 * distance * tangent  # clock and scale have their place below
         return Camera(middle - [0, distance, 0], middle)
     yaw, pitch = 4.35, 0.42  # as the views of the demos have them
     direction = numpy.array([numpy.cos(yaw) * numpy.cos(pitch), numpy.sin(yaw) * numpy.cos(pitch), numpy.sin(pitch)])

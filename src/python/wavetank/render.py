@@ -18,7 +18,8 @@ from wavetank.recording import Recording
 from wavetank.scenery import Particles, Scenery
 from wavetank.vtk_files import write_whole
 
-FILMS, PICTURES = (".mp4", ".gif"), (".png",)
+FILMS, PICTURES = (".mp4", ".gif"), (".png", ".jpg")
+JPEG_QUALITY = 90  # of 100
 MOST_PICTURES = 100000  # of a film, which is more than an hour
 PLAIN = {"view": None, "eye": None, "target": None, "colour": "speed", "range": None, "fps": None, "speed": 1.0}  # where nothing is said
 UNITS = {"speed": "speed (m/s)", "pressure": "pressure (Pa)"}
@@ -54,7 +55,7 @@ def numbers(text, count, what):
 def read_arguments(arguments):
     parser = argparse.ArgumentParser(prog="render", description=__doc__, epilog="docs/pictures.md has examples. Drawn without a display, by VTK.")
     parser.add_argument("bag", help="written by wavetank_run with --surface, --particles or --clouds")
-    parser.add_argument("-o", "--output", metavar="FILE", required=True, help="a film (.mp4, .gif), or a picture (.png)")
+    parser.add_argument("-o", "--output", metavar="FILE", required=True, help="a film (.mp4, .gif), or a picture (.png, .jpg)")
     parser.add_argument("--at", metavar="S", type=float, help="of a picture: simulated time, s; the nearest that was recorded (the last)")
     parser.add_argument("--from", metavar="S", type=float, dest="begin", help="of a film: simulated time that it begins at, s")
     parser.add_argument("--to", metavar="S", type=float, dest="end", help="and ends at")
@@ -102,7 +103,7 @@ def times_of(options, stamps, ending):
             raise Failure("a picture is of one time: give it by --at, or write a film (%s)" % ", ".join(FILMS))
         return nearest(numpy.array([last if options.at is None else checked(options.at, "--at")]))
     if options.at is not None:
-        raise Failure("--at is of a picture (.png): a film goes from --from to --to")
+        raise Failure("--at is of a picture (.png, .jpg): a film goes from --from to --to")
     begin = first if options.begin is None else checked(options.begin, "--from")
     end = last if options.end is None else checked(options.end, "--to")
     if end < begin:
@@ -126,7 +127,7 @@ def frames_a_second(options, ending):
 def ending_of(path):
     ending = os.path.splitext(path)[1].lower()
     if ending not in FILMS + PICTURES:
-        raise Failure("'%s': films end in %s, pictures in %s" % (path, " or ".join(FILMS), ", ".join(PICTURES)))
+        raise Failure("'%s': films end in %s, pictures in %s" % (path, " or ".join(FILMS), " or ".join(PICTURES)))
     folder = os.path.dirname(os.path.abspath(path))
     if not os.path.isdir(folder):
         raise Failure("cannot write '%s': there is no folder '%s'" % (path, folder))
@@ -189,7 +190,7 @@ def rounded_up(value):
 def find_ffmpeg():
     program = shutil.which("ffmpeg")
     if program is None:
-        raise Failure("films are written by ffmpeg, which is not there: %s (Debian: ffmpeg); pictures (.png) do without" % INSTALL)
+        raise Failure("films are written by ffmpeg, which is not there: %s (Debian: ffmpeg); pictures (.png, .jpg) do without" % INSTALL)
     return program
 
 
@@ -252,16 +253,20 @@ class Film:
             os.remove(self._part)
 
 
-def write_png(path, picture):
+def write_picture(path, ending, picture):
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkImageData
-    from vtkmodules.vtkIOImage import vtkPNGWriter
+    from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGWriter
 
     height, width, _ = picture.shape
     image = vtkImageData()
     image.SetDimensions(width, height, 1)
     image.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(picture[::-1]).reshape(-1, 3), deep=True))
-    writer = vtkPNGWriter()
+    if ending == ".png":
+        writer = vtkPNGWriter()
+    else:
+        writer = vtkJPEGWriter()
+        writer.SetQuality(JPEG_QUALITY)
     writer.SetInputData(image)
     writer.WriteToMemoryOn()
     writer.Write()
@@ -435,7 +440,7 @@ def write(options, ending, size, drawing, times):
         if ending in PICTURES:
             picture = drawing.draw(times[0])
             with told_of(options.output):
-                write_png(options.output, picture)
+                write_picture(options.output, ending, picture)
             return
         film = Film(options.output, ending, size, frames_a_second(options, ending))
         try:

@@ -117,7 +117,8 @@ class Page {
     this.player.waiting = false;
     if (packet.water !== find("water").value) return;
     this.view.showCloud(packet);
-    this._arrived(packet, `${packet.points.length / 4} particles`);
+    const every = packet.points.length / 4 / this.view.count;
+    this._arrived(packet, `${packet.points.length / 4} particles` + (every > 1.5 ? `, one in ${Math.round(every)} drawn` : ""));
     find("legend").hidden = false;
   }
 

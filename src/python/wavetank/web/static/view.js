@@ -38,10 +38,31 @@ const POINT_SHADER = {
     }`,
 };
 
+// Where the processor draws: a picture costs it most of all the pixels of the balls, and one without `discard` hides what lies behind it.
+const PLAIN_FRAGMENT_SHADER = `
+    precision mediump float;
+    varying vec3 shade;
+    void main() { gl_FragColor = vec4(shade * (1.08 - 0.3 * gl_PointCoord.y), 1.0); }`;
+const LONGEST = 1000 / 8;  // ms a picture: where it takes longer only some of the particles are drawn
+const FEW = 20000;  // particles, that are all drawn however long it takes
+const MOST_LEFT_OUT = 8;  // one in so many is drawn at least
+
 /** A round number that is not less. */
 function roundUp(value) {
   const power = Math.pow(10, Math.floor(Math.log10(value)));
   return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((each) => each * power).find((each) => each >= value * 0.999999);
+}
+
+/** Of points of four numbers of 16 bits, every such one. */
+function oneIn(every, points) {
+  if (every === 1) return points;
+  const all = new Uint32Array(points.buffer, points.byteOffset, points.length / 2);  // two a point
+  const some = new Uint32Array(2 * Math.ceil(all.length / (2 * every)));
+  for (let from = 0, to = 0; from < all.length; from += 2 * every, to += 2) {
+    some[to] = all[from];
+    some[to + 1] = all[from + 1];
+  }
+  return new Uint16Array(some.buffer);
 }
 
 /** Whether the processor draws, for which smooth edges are too dear. */
@@ -77,19 +98,38 @@ class View {
     this.range = null;  // m/s of the last colour; null: by what is there
     this.typical = 0;
     this.frames = 0;
+    this.every = 1;  // one in so many particles is drawn
+    this.given = 0;  // particles, of the last cloud
+    this.cost = this.paced = 0;  // ms a picture, of the last ones; how many since `every` changed
+    this.diameter = 0.01;  // m, of a particle
     this._addLights();
     this._addWater();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
-    const loop = () => {
+    const loop = (now) => {
       requestAnimationFrame(loop);
+      this._pace(now);
       if (this.dirty) {
         this.dirty = false;
         this.renderer.render(this.scene, this.camera);
         this.frames += 1;
+        this.drewAt = now;
       }
     };
-    loop();
+    requestAnimationFrame(loop);
+  }
+
+  /** What a picture takes is seen by when the browser asks for the next one. */
+  _pace(now) {
+    const drewAt = this.drewAt;
+    this.drewAt = null;
+    if (!drewAt || !this.slow || !this.water.visible || document.hidden) return;
+    this.cost += 0.2 * (Math.min(now - drewAt, 1000) - this.cost);
+    if (++this.paced < 10) return;
+    if (this.cost > LONGEST && this.every < MOST_LEFT_OUT && this.given > FEW) this.every += 1;
+    else if (this.every > 1 && this.cost * this.every / (this.every - 1) < 0.7 * LONGEST) this.every -= 1;
+    else return;
+    this.paced = 0;
   }
 
   redraw() { this.dirty = true; }
@@ -119,7 +159,7 @@ class View {
       low: { value: new THREE.Vector3() }, size: { value: new THREE.Vector3() }, diameter: { value: 0.01 }, height: { value: 1 }, factor: { value: 0 },
       colours: { value: SPEED_COLOURS.map((colour) => new THREE.Color(colour)) },
     };
-    this.water = new THREE.Points(new THREE.BufferGeometry(), new THREE.RawShaderMaterial({ uniforms, ...POINT_SHADER }));
+    this.water = new THREE.Points(new THREE.BufferGeometry(), new THREE.RawShaderMaterial({ uniforms, ...POINT_SHADER, ...(this.slow ? { fragmentShader: PLAIN_FRAGMENT_SHADER } : {}) }));
     this.water.frustumCulled = false;
     this.water.visible = false;
     this.tank.add(this.water);
@@ -137,7 +177,9 @@ class View {
   // ---------------------------------------------------------------- water
 
   showCloud(packet) {
-    const count = packet.points.length / 4;
+    this.given = packet.points.length / 4;
+    const points = oneIn(this.given > FEW ? this.every : 1, packet.points);
+    const count = points.length / 4;
     const geometry = this.water.geometry;
     let held = geometry.getAttribute("position");
     if (!held || held.count < count) {  // with some room, since their number changes
@@ -146,13 +188,14 @@ class View {
       held.setUsage ? held.setUsage(35048) : (held.dynamic = true);
       geometry.setAttribute("position", held);
     }
-    held.array.set(packet.points);
-    held.updateRange.count = packet.points.length;
+    held.array.set(points);
+    held.updateRange.count = points.length;
     held.needsUpdate = true;
     geometry.setDrawRange(0, count);
     const uniforms = this.water.material.uniforms;
     uniforms.low.value.fromArray(packet.low);
     uniforms.size.value.fromArray(packet.size);
+    uniforms.diameter.value = this.diameter * Math.pow(this.given / Math.max(count, 1), 1 / this.dimensions);
     this.top = packet.top_speed;  // m/s, of the fastest particle
     this._follow(packet.typical_speed);
     this.water.visible = true;
@@ -210,7 +253,7 @@ class View {
   }
 
   set spacing(value) {
-    if (value) this.water.material.uniforms.diameter.value = 1.15 * value;
+    if (value) this.water.material.uniforms.diameter.value = this.diameter = 1.15 * value;
   }
 
   /** The colours' range goes up with the water at once, and down slowly. */
