@@ -106,12 +106,14 @@ std::vector<DeviceInfo> matching_name(const std::vector<DeviceInfo>& devices, co
 /// A piece of a device, to be released by its owner.
 cl_device_id piece_of(cl_device_id whole, const DeviceInfo& info) {
   std::vector<cl_device_id> pieces(static_cast<std::size_t>(device_value<cl_uint>(whole, CL_DEVICE_MAX_COMPUTE_UNITS)));
-  const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY, static_cast<cl_device_partition_property>(info.compute_units), 0};
+  const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY,
+                                                  static_cast<cl_device_partition_property>(info.compute_units), 0};
   cl_uint made = 0;
   check(clCreateSubDevices(whole, equally, static_cast<cl_uint>(pieces.size()), pieces.data(), &made), "clCreateSubDevices", info,
         "dividing the device");
   pieces.resize(made);
-  if (static_cast<std::size_t>(info.piece) >= pieces.size()) throw Error("the device " + info.describe() + " was divided into fewer pieces");
+  if (static_cast<std::size_t>(info.piece) >= pieces.size())
+    throw Error("the device " + info.describe() + " was divided into fewer pieces");
   for (std::size_t k = 0; k < pieces.size(); ++k)
     if (k != static_cast<std::size_t>(info.piece)) clReleaseDevice(pieces[k]);
   return pieces[info.piece];

@@ -260,7 +260,7 @@ class SphSolver final : public Solver, private StepEngine {
   Real longest_step_ = 0;  ///< bound on Δt from what moves besides the fluid, s
   Trial trial_;
   std::optional<KernelMaker> make_;
-  int bindings_ = 0;  ///< how often kernels were bound
+  int bindings_ = 0;                       ///< how often kernels were bound
   std::unique_ptr<WaterPart<Real>> part_;  ///< of a solver of a part of the water
   Kernels kernels_;
   Schedule schedule_;

@@ -125,8 +125,8 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
     if (row.kind == ReportRow::Kind::count) found[row.name] = static_cast<double>(counts[next_count++]);
   }
   if (found["particles"] != static_cast<double>(part_->parting().particles))
-    throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) + " particles together, not " +
-                std::to_string(part_->parting().particles) + ": some were lost between them");
+    throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
+                " particles together, not " + std::to_string(part_->parting().particles) + ": some were lost between them");
   StepReport report;
   report.greatest_speed = greatest_speed_ = found["speed"];
   report.greatest_acceleration = greatest_acceleration_ = found["acceleration"];
@@ -149,7 +149,8 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   if (report.not_finite + report.outside + report.too_fast == 0) return report;
   // the one of the least id is told of, by the part that has it
   StepReport described = report;
-  const bool offends = counted[reports_.integer("not_finite")] + counted[reports_.integer("outside")] + counted[reports_.integer("fast")] > 0;
+  const bool offends =
+      counted[reports_.integer("not_finite")] + counted[reports_.integer("outside")] + counted[reports_.integer("fast")] > 0;
   if (offends) describe_offender(described, counted[reports_.integer("offender")]);
   const std::int64_t least = group.least({offends ? static_cast<std::int64_t>(described.offender_id) : nobody_offends})[0];
   return offends && described.offender_id == least ? described : report;
@@ -192,18 +193,18 @@ double SphSolver<Real>::greatest_drift() const {
   return schedule_.drift() * (0.5 * case_.numerics.courant * discretisation_.smoothing_length + shift);
 }
 
-#define WAVETANK_PARTS(Real)                                                                       \
-  template void SphSolver<Real>::bind_part();                                                      \
-  template void SphSolver<Real>::over_own(const BoundSweep&) const;                                \
-  template void SphSolver<Real>::refresh(const char*);                                             \
-  template void SphSolver<Real>::spoil(const char*);                                               \
-  template void SphSolver<Real>::run_with_exchanges();                                             \
-  template void SphSolver<Real>::sort_part();                                                      \
-  template void SphSolver<Real>::sort_alone();                                                     \
+#define WAVETANK_PARTS(Real)                                                                           \
+  template void SphSolver<Real>::bind_part();                                                          \
+  template void SphSolver<Real>::over_own(const BoundSweep&) const;                                    \
+  template void SphSolver<Real>::refresh(const char*);                                                 \
+  template void SphSolver<Real>::spoil(const char*);                                                   \
+  template void SphSolver<Real>::run_with_exchanges();                                                 \
+  template void SphSolver<Real>::sort_part();                                                          \
+  template void SphSolver<Real>::sort_alone();                                                         \
   template StepReport SphSolver<Real>::watch_parts(const std::vector<Real>&, const std::vector<int>&); \
-  template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;              \
-  template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;   \
-  template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                \
+  template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \
+  template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;       \
+  template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
   template double SphSolver<Real>::greatest_drift() const;
 WAVETANK_PARTS(float)
 WAVETANK_PARTS(double)

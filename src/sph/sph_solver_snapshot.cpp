@@ -38,7 +38,8 @@ std::vector<char> SphSolver<Real>::save() const {
   const std::vector<Real> state = state_.download(), rates = rates_.download();
   const std::vector<std::uint32_t> id = id_.download(count_);
   std::vector<int> order = order_by_id(id);
-  if (part_) order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return component(state, "own")[i] == Real(0); }), order.end());
+  if (part_)
+    order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return component(state, "own")[i] == Real(0); }), order.end());
   const auto in_order = [&](const auto& value_of) {
     std::vector<std::decay_t<decltype(value_of(0))>> values(order.size());
     std::transform(order.begin(), order.end(), values.begin(), value_of);

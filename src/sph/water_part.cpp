@@ -18,7 +18,13 @@ void append_values(parallel::Bytes& bytes, const T* values, std::size_t count) {
 
 template <class Real>
 WaterPart<Real>::WaterPart(const compute::Device& device, const Parting& parting, int rows, int slots, int tile)
-    : device_(device), parting_(parting), rows_(rows), slots_(slots), tile_(tile), sent_(device, 2), edge_runs_(device, 8 * static_cast<std::size_t>(rows)) {
+    : device_(device),
+      parting_(parting),
+      rows_(rows),
+      slots_(slots),
+      tile_(tile),
+      sent_(device, 2),
+      edge_runs_(device, 8 * static_cast<std::size_t>(rows)) {
   list_.set(device, {0});
   grow(1, 1);
 }

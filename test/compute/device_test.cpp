@@ -83,7 +83,8 @@ TEST(ChooseDevices, APieceOfADeviceComputes) {
     EXPECT_EQ(half.compute_units, whole.compute_units / 2);
     const Device device(half);
     Buffer<int> values(device, std::vector<int>{1, 2, 3});
-    Program(device, {{"twice.cl", "__kernel void twice(__global int* v) { v[get_global_id(0) % 3] *= get_global_id(0) < 3 ? 2 : 1; }"}}, "twice.cl", "")
+    Program(device, {{"twice.cl", "__kernel void twice(__global int* v) { v[get_global_id(0) % 3] *= get_global_id(0) < 3 ? 2 : 1; }"}},
+            "twice.cl", "")
         .kernel("twice")
         .launch(3, values);
     EXPECT_EQ(values.download(), (std::vector<int>{2, 4, 6}));

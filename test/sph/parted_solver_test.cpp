@@ -60,40 +60,45 @@ void expect_same_bits(const Case& scene, int steps, const std::vector<int>& part
 
 TEST(PartedSolver, HasTheSameBitsForAnyNumberOfParts) { expect_same_bits(running_out(2), 200); }
 
+/// Longest along y, across which rows are cut.
 TEST(PartedSolver, AlsoIn3D) {
-  expect_same_bits(running_out(3), 40, {3});
-  Case turned = running_out(3);  // longest along y, across which rows are cut
-  turned.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.36, 0.5, 0.4)}};
-  turned.tank.shape = BoxTank{Vector3d(0.36, 1.2, 0.8), Vector3d::Zero(), false};
-  expect_same_bits(turned, 40, {3});
+  Case scene = running_out(3);
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.36, 0.5, 0.4)}};
+  scene.tank.shape = BoxTank{Vector3d(0.36, 1.2, 0.8), Vector3d::Zero(), false};
+  expect_same_bits(scene, 30, {3});
 }
 
-TEST(PartedSolver, AlsoInDoublePrecisionAndWithBodies) {
+/// A thin plate in the water's way, a belt, and water that is damped.
+TEST(PartedSolver, AlsoWithBodies) {
   Case scene = running_out(2);
   scene.fluid.spacing = 0.04;
-  BodyCase box;
-  box.name = "box";
-  box.shape = Box{Vector3d(0.7, 0, 0), Vector3d(0.82, 0, 0.2)};
-  scene.bodies = {box};
-  if (has_precision(Precision::double_)) scene.numerics.precision = Precision::double_;
-  expect_same_bits(scene, 200, {2});
+  scene.bodies.resize(2);
+  scene.bodies[0].name = "plate";
+  scene.bodies[0].shape = Box{Vector3d(0.7, 0, 0), Vector3d(0.72, 0, 0.2)};
+  scene.bodies[1].name = "belt";
+  scene.bodies[1].shape = Box{Vector3d(0.9, 0, 0.1), Vector3d(1.1, 0, 0.2)};
+  scene.bodies[1].surface_velocity = Vector3d(0.5, 0, 0);
+  DampingCase damping;
+  damping.box = Box{Vector3d(0, 0, 0), Vector3d(0.6, 0, 0.8)};
+  damping.strength = 10;
+  scene.fluid.damping = {damping};
+  expect_same_bits(scene, 150, {2});
 }
 
 /// What sweeps ask of each other's results is exchanged, whatever the case has chosen.
 TEST(PartedSolver, AlsoByOtherMethods) {
-  for (int k = 0; k < 4; ++k) {
-    Case scene = running_out(2);
-    scene.fluid.spacing = 0.04;
-    NumericsCase& numerics = scene.numerics;
-    if (k == 0) numerics.density_diffusion = DensityDiffusion::antuono;
-    if (k == 0) numerics.shifting = Shifting::sun;
-    if (k == 1) numerics.integrator = Integrator::runge_kutta_4;
-    if (k == 1) numerics.shifting = Shifting::lind;
-    if (k == 2) numerics.integrator = Integrator::predictor_corrector;
-    if (k == 3) numerics.scheme = Scheme::riemann_parshikov;
-    SCOPED_TRACE(k);
-    expect_same_bits(scene, 60, {2});
-  }
+  Case scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.density_diffusion = DensityDiffusion::antuono;
+  scene.numerics.shifting = Shifting::sun;
+  expect_same_bits(scene, 60, {2});
+  scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.numerics.integrator = Integrator::predictor_corrector;
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  if (has_precision(Precision::double_)) scene.numerics.precision = Precision::double_;
+  expect_same_bits(scene, 60, {2});
 }
 
 TEST(PartedSolver, CutsDoNotMatter) {
@@ -140,7 +145,7 @@ TEST(PartedSolver, StopsInTheSameStepWithTheSameReport) {
     EXPECT_FALSE(report.valid());
     return std::make_tuple(steps, report.offender_id, report.too_fast, report.offender_velocity.x(), report.time_step, report.guard_hits);
   };
-  EXPECT_EQ(stop(1), stop(3));
+  EXPECT_EQ(stop(1), stop(2));
 }
 
 TEST(PartedSolver, RefusesWhatPartsCannotDoYet) {

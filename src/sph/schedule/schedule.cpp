@@ -103,8 +103,8 @@ double Schedule::drift() const {
 
 std::vector<std::vector<Access>> Schedule::exchanges() const {
   std::vector<std::vector<Access>> result(stages_.size());
-  std::set<Access> wanted;                  // of the halo, by what comes after
-  for (int step = 0; step < 2; ++step)      // backwards; the first time round finds what the next step wants at the end of this one
+  std::set<Access> wanted;              // of the halo, by what comes after
+  for (int step = 0; step < 2; ++step)  // backwards; the first time round finds what the next step wants at the end of this one
     for (std::size_t k = stages_.size(); k-- > 0;) {
       const Stage& stage = stages_[k];
       if (stage.sorts) {
