@@ -42,6 +42,7 @@ Device::State::~State() {
   for (const auto& program : programs) clReleaseProgram(program.second);
   clReleaseCommandQueue(queue);
   clReleaseContext(context);
+  if (info.pieces > 1) clReleaseDevice(id);
 }
 
 void Device::State::finish() const { check(clFinish(queue), "clFinish", info, "finishing what was queued"); }

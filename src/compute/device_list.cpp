@@ -103,6 +103,59 @@ std::vector<DeviceInfo> matching_name(const std::vector<DeviceInfo>& devices, co
   return matches;
 }
 
+/// A piece of a device, to be released by its owner.
+cl_device_id piece_of(cl_device_id whole, const DeviceInfo& info) {
+  std::vector<cl_device_id> pieces(static_cast<std::size_t>(device_value<cl_uint>(whole, CL_DEVICE_MAX_COMPUTE_UNITS)));
+  const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY,
+                                                  static_cast<cl_device_partition_property>(info.compute_units), 0};
+  cl_uint made = 0;
+  check(clCreateSubDevices(whole, equally, static_cast<cl_uint>(pieces.size()), pieces.data(), &made), "clCreateSubDevices", info,
+        "dividing the device");
+  pieces.resize(made);
+  if (static_cast<std::size_t>(info.piece) >= pieces.size())
+    throw Error("the device " + info.describe() + " was divided into fewer pieces");
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    if (k != static_cast<std::size_t>(info.piece)) clReleaseDevice(pieces[k]);
+  return pieces[info.piece];
+}
+
+/// Whether the device divides itself into pieces of as many units each.
+bool can_divide(const DeviceInfo& info) {
+  const cl_device_id id = find_device(info);
+  std::size_t size = 0;
+  if (clGetDeviceInfo(id, CL_DEVICE_PARTITION_PROPERTIES, 0, nullptr, &size) != CL_SUCCESS || size == 0) return false;
+  std::vector<cl_device_partition_property> ways(size / sizeof(cl_device_partition_property));
+  if (clGetDeviceInfo(id, CL_DEVICE_PARTITION_PROPERTIES, size, ways.data(), nullptr) != CL_SUCCESS) return false;
+  return std::find(ways.begin(), ways.end(), CL_DEVICE_PARTITION_EQUALLY) != ways.end();
+}
+
+std::vector<DeviceInfo> divided(const DeviceInfo& whole, unsigned pieces) {
+  if (pieces == 1) return {whole};
+  const std::string wanted = "cannot be divided into " + std::to_string(pieces) + " pieces: ";
+  if (pieces == 0 || pieces > whole.compute_units)
+    throw Error("the device " + whole.describe() + " " + wanted + "give 1 to " + std::to_string(whole.compute_units) +
+                ", or name the device several times");
+  if (!can_divide(whole)) throw Error("the device " + whole.describe() + " " + wanted + "its driver does not divide it");
+  std::vector<DeviceInfo> result(pieces, whole);
+  for (unsigned k = 0; k < pieces; ++k) {
+    result[k].pieces = static_cast<int>(pieces);
+    result[k].piece = static_cast<int>(k);
+    result[k].compute_units = whole.compute_units / pieces;
+  }
+  return result;
+}
+
+/// Takes "/N" from the end; 1 where there is none.
+unsigned take_pieces(std::string& selector) {
+  const std::size_t slash = selector.rfind('/');
+  if (slash == std::string::npos || slash + 1 == selector.size() || selector.size() > slash + 5 ||
+      selector.find_first_not_of("0123456789", slash + 1) != std::string::npos)
+    return 1;
+  const auto pieces = static_cast<unsigned>(std::stoul(selector.substr(slash + 1)));
+  selector.resize(slash);
+  return pieces;
+}
+
 std::vector<DeviceInfo> of_kind(const std::vector<DeviceInfo>& devices, bool gpu) {
   std::vector<DeviceInfo> matches;
   std::copy_if(devices.begin(), devices.end(), std::back_inserter(matches), [gpu](const DeviceInfo& d) { return d.is_gpu == gpu; });
@@ -111,7 +164,9 @@ std::vector<DeviceInfo> of_kind(const std::vector<DeviceInfo>& devices, bool gpu
 
 }  // namespace
 
-std::string DeviceInfo::indices() const { return std::to_string(platform) + ":" + std::to_string(device); }
+std::string DeviceInfo::indices() const {
+  return std::to_string(platform) + ":" + std::to_string(device) + (pieces > 1 ? "/" + std::to_string(pieces) : "");
+}
 
 std::string DeviceInfo::describe() const {
   return indices() + " " + name + " (" + platform_name + ", driver " + driver + ", " + std::to_string(compute_units) +
@@ -139,7 +194,8 @@ cl_device_id find_device(const DeviceInfo& info) {
   const auto platforms = platform_ids();
   if (info.platform >= 0 && std::size_t(info.platform) < platforms.size()) {
     const auto ids = device_ids(platforms[info.platform]);
-    if (info.device >= 0 && std::size_t(info.device) < ids.size()) return ids[info.device];
+    if (info.device >= 0 && std::size_t(info.device) < ids.size())
+      return info.pieces == 1 ? ids[info.device] : piece_of(ids[info.device], info);
   }
   throw Error("the OpenCL device " + info.describe() + " is there no more");
 }
@@ -170,6 +226,23 @@ DeviceInfo choose_device(const std::string& selector) {
     throw Error("no OpenCL device is called \"" + selector + "\"; there are: " + described(devices) +
                 "; choose auto, cpu, gpu, PLATFORM:DEVICE or a part of a name");
   throw Error("several OpenCL devices are called \"" + selector + "\": " + described(matches) + "; choose one as PLATFORM:DEVICE");
+}
+
+std::vector<DeviceInfo> choose_devices(const std::string& selectors) {
+  if (lower(selectors) == "all") {
+    choose_device("auto");  // throws if there is none
+    return list_devices();
+  }
+  std::vector<DeviceInfo> chosen;
+  for (std::size_t begin = 0; begin <= selectors.size();) {
+    const std::size_t end = std::min(selectors.find(',', begin), selectors.size());
+    std::string selector = trimmed(selectors.substr(begin, end - begin));
+    const unsigned pieces = take_pieces(selector);
+    const std::vector<DeviceInfo> more = divided(choose_device(selector), pieces);
+    chosen.insert(chosen.end(), more.begin(), more.end());
+    begin = end + 1;
+  }
+  return chosen;
 }
 
 }  // namespace wavetank::compute

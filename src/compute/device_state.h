@@ -15,7 +15,7 @@
 
 namespace wavetank::compute {
 
-/// The OpenCL handle behind an entry of list_devices(); throws Error if that entry is there no more.
+/// The OpenCL handle behind an entry of list_devices(); throws Error if that entry is there no more. Of a piece it is to be released.
 cl_device_id find_device(const DeviceInfo& info);
 
 struct Device::State {

@@ -70,7 +70,10 @@ RunOptions read_command_line(int argc, char** argv) {
                "with the water's surface as a mesh: in the bag, with a height map, at rate rates/surface_bag; in files for ParaView");
   app.add_option("--duration", duration, "simulated time instead of the case's duration, s")->type_name("S");
   app.add_option("--set", shown_only, "replace a key of the case: --set fluid/spacing=0.02; may be repeated")->type_name("KEY=VALUE");
-  app.add_option("--device", device, "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name")->type_name("DEVICE");
+  app.add_option("--device", device,
+                 "OpenCL device: auto, cpu, gpu, PLATFORM:DEVICE or a part of its name; several with commas between them, DEVICE/N for N "
+                 "pieces of one, or all: the water in as many parts")
+      ->type_name("DEVICE");
   app.add_option("--restore", options.restore, "go on from this snapshot of the same case")->type_name("FILE");
   app.add_option("--save", options.save, "write a snapshot when the run ends")->type_name("FILE");
   app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");

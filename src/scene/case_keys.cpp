@@ -389,8 +389,10 @@ Section<Case> declare_case() {
               "A 2-D case lies in the x–z plane; its positions may be given as [x, z].");
   section.key("gravity", &Case::gravity, vector(), "m/s²", "Of any direction; in 2-D without a y component.");
   section.key("duration", &Case::duration, number(greater_than(0)), "s", "Of simulated time.").required = true;
-  section.key("device", &Case::device, nonempty_text(), "",
-              "OpenCL device: `auto`, `cpu`, `gpu`, a part of the device's name, or \"PLATFORM:DEVICE\" by index, in quotes.");
+  section.key(
+      "device", &Case::device, nonempty_text(), "",
+      "OpenCL device: `auto`, `cpu`, `gpu`, a part of the device's name, or \"PLATFORM:DEVICE\" by index, in quotes; several of them, "
+      "or `all`, for [water in parts](distributed.md).");
   section.key("fluid", &Case::fluid, section_of(fluid_section()), "", "The water.").required = true;
   section.key("tank", &Case::tank, section_of(tank_section()), "", "The tank: a box or a mesh.").required = true;
   section.key("bodies", &Case::bodies, list_of(body_section()), "", "Bodies in the tank: boxes or closed meshes.");

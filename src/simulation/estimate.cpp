@@ -36,9 +36,8 @@ double Simulation::Parts::loading_seconds() {
   if (spent < loading) return spent;
   try {
     const Stopwatch::Lap lap(compiling);
-    make_solver(compute::Device(compute::choose_device(scene.device), options.time_kernels), scene, layout, discretisation,
-                reference_points(world));  // another device keeps no programs yet
-  } catch (const Error&) {                 // there is no room for two
+    solver_on(chosen_devices());  // other devices keep no programs yet
+  } catch (const Error&) {        // there is no room for two
     return 0;
   }
   return compiling.seconds() - spent;

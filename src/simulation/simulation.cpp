@@ -14,6 +14,7 @@
 #include "wavetank/common/version.h"
 #include "wavetank/common/visible_text.h"
 #include "wavetank/rigid/prescribed_motion.h"
+#include "wavetank/sph/parted_solver.h"
 
 namespace wavetank {
 namespace {
@@ -133,7 +134,7 @@ Simulation::Parts::Parts(const Case& checked, SimulationOptions given)
       coupling(world, scene, layout, discretisation),
       film(world, scene, layout, discretisation),
       openings(scene, layout, discretisation, laws, reference_points(world)),
-      device(compute::choose_device(scene.device), options.time_kernels),
+      devices(chosen_devices()),
       solver(prepared_solver()),
       recorder(
           scene, layout, *solver, world, [this](Solver& fluid) { return wrenches(fluid); },
@@ -179,10 +180,22 @@ double Simulation::Parts::fastest_inflow(const Case& checked, double fastest_wal
   return std::max(fastest_wall, fastest_of_all);
 }
 
+std::vector<compute::Device> Simulation::Parts::chosen_devices() const {
+  std::vector<compute::Device> chosen;
+  for (const compute::DeviceInfo& info : compute::choose_devices(scene.device)) chosen.emplace_back(info, options.time_kernels);
+  return chosen;
+}
+
+std::unique_ptr<Solver> Simulation::Parts::solver_on(const std::vector<compute::Device>& those) const {
+  const std::vector<Vector3d> centres = reference_points(world);
+  if (those.size() == 1) return make_solver(those[0], scene, layout, discretisation, centres);
+  return make_parted_solver(those, scene, layout, discretisation, centres);
+}
+
 std::unique_ptr<Solver> Simulation::Parts::prepared_solver() {
   const Stopwatch::Lap lap(compiling);
   progress("compiling kernels", 0.0);
-  std::unique_ptr<Solver> result = make_solver(device, scene, layout, discretisation, reference_points(world));
+  std::unique_ptr<Solver> result = solver_on(devices);
   progress("compiling kernels", 1.0);
   return result;
 }
@@ -404,7 +417,22 @@ const Case& Simulation::scene() const { return parts_->scene; }
 
 const Layout& Simulation::layout() const { return parts_->layout; }
 
-std::string Simulation::device_description() const { return parts_->device.info().describe(); }
+std::string Simulation::device_description() const {
+  const std::vector<compute::Device>& devices = parts_->devices;
+  if (devices.size() == 1) return devices[0].info().describe();
+  std::string text = std::to_string(devices.size()) + " parts on " + devices[0].info().describe();
+  for (std::size_t k = 1; k < devices.size(); ++k) {
+    const std::string other = devices[k].info().describe();
+    if (other != devices[k - 1].info().describe()) text += ", " + other;
+  }
+  return text;
+}
+
+std::string Simulation::Parts::kind_of_device() const {
+  const compute::DeviceInfo& first = devices[0].info();
+  if (devices.size() == 1) return first.describe();
+  return "parts on " + first.name + " (" + first.platform_name + ", driver " + first.driver + ")";
+}
 
 std::string Simulation::summary() const {
   const Parts& parts = *parts_;
@@ -433,7 +461,16 @@ std::string Simulation::summary() const {
 
 std::vector<KernelTime> Simulation::kernel_times() const {
   std::vector<KernelTime> times;
-  for (const compute::KernelTiming& timing : parts_->device.timings()) times.push_back({timing.kernel, timing.launches, timing.seconds});
+  for (const compute::Device& device : parts_->devices)
+    for (const compute::KernelTiming& timing : device.timings()) {
+      const auto same = std::find_if(times.begin(), times.end(), [&](const KernelTime& time) { return time.kernel == timing.kernel; });
+      if (same == times.end()) {
+        times.push_back({timing.kernel, timing.launches, timing.seconds});
+      } else {
+        same->launches += timing.launches;
+        same->seconds += timing.seconds;
+      }
+    }
   const auto add_host = [&times](const char* what, const Stopwatch& watch) {
     if (watch.count() > 0) times.push_back({std::string("(host) ") + what, watch.count(), watch.seconds()});
   };

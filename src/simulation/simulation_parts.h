@@ -26,7 +26,11 @@ struct Simulation::Parts {
   std::vector<FlowLaw> laws_of(const Case& checked) const;
   /// Of any opening or wall from the start to the end, m/s.
   double fastest_inflow(const Case& checked, double fastest_wall) const;
+  std::vector<compute::Device> chosen_devices() const;
+  std::unique_ptr<Solver> solver_on(const std::vector<compute::Device>& those) const;
   std::unique_ptr<Solver> prepared_solver();
+  /// On which another run has the same bits: the device, or, of water in parts, the kind of them.
+  std::string kind_of_device() const;
   void progress(const char* what, double fraction) const;
   /// The fluid's, with those of films that particles do not resolve.
   std::vector<WallWrench> wrenches(Solver& fluid);
@@ -71,7 +75,7 @@ struct Simulation::Parts {
   Coupling coupling;
   WaterFilm film;
   OpeningFlows openings;
-  compute::Device device;
+  std::vector<compute::Device> devices;  ///< one a part of the water
   std::unique_ptr<Solver> solver;
   Recorder recorder;
   AbsorbingPaddles paddles;

@@ -81,7 +81,7 @@ void Simulation::save(const std::string& path) const {
   const Parts& parts = *parts_;
   Snapshot snapshot;
   snapshot.version = version();
-  snapshot.device = device_description();
+  snapshot.device = parts.kind_of_device();
   snapshot.scene = flow_of(parts.scene, parts.layout, parts.world, parts.laws);
   snapshot.time = parts.time;
   snapshot.time_step = parts.time_step;
@@ -107,7 +107,7 @@ void Simulation::restore(const std::string& path) {
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
-  if (snapshot.device != device_description())
+  if (snapshot.device != parts.kind_of_device())
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;
   parts.restore_bodies(snapshot.bodies);

@@ -7,20 +7,21 @@ int blocks_of(int values) { return (values + field::scan_block - 1) / field::sca
 
 }  // namespace
 
-ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particles)
+ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particles, int listed)
     : slots_(slots),
       all_slots_(slots + 1),
       blocks_(blocks_of(all_slots_)),
       groups_(blocks_of(blocks_)),
       counts_(device, all_slots_),
-      starts_(device, all_slots_ + 1),
+      starts_(device, static_cast<std::size_t>(all_slots_) + 1 + listed),
       block_sums_(device, blocks_ + 1),
       group_sums_(device, groups_),
       block_starts_(device, blocks_ + 1),
       slot_of_(device, particles),
       order_(device, particles) {}
 
-void ParticleGrid::reserve(const compute::Device& device, int particles) {
+void ParticleGrid::reserve(const compute::Device& device, int particles, int listed) {
+  if (listed > 0) starts_ = compute::Buffer<int>(device, static_cast<std::size_t>(all_slots_) + 1 + listed);
   slot_of_ = compute::Buffer<int>(device, particles);
   order_ = compute::Buffer<int>(device, particles);
 }

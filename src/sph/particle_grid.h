@@ -10,17 +10,20 @@ namespace wavetank {
 class ParticleGrid {
  public:
   ParticleGrid() = default;
-  ParticleGrid(const compute::Device& device, int slots, int particles);
+  /// `listed`: values that starts() has room for after those of the slots.
+  ParticleGrid(const compute::Device& device, int slots, int particles, int listed = 0);
 
-  /// Room for so many particles.
-  void reserve(const compute::Device& device, int particles);
+  /// Room for so many particles. What starts() had is lost if there is a list.
+  void reserve(const compute::Device& device, int particles, int listed = 0);
   /// `arguments`: `state` and `id` are what is sorted, into `half_state` and `spare_id`, with which they are to be swapped then; and the
   /// drains.
   void bind(const KernelMaker& make, const compute::Arguments& arguments);
   void sort(int particles);
 
-  /// Of each slot; then how many particles there are in the water, and how many with those that leave it.
+  /// Of each slot; then how many particles there are in the water, and how many with those that leave it; then, of a part of the water, its
+  /// list of tiles (cells.cl).
   const compute::Buffer<int>& starts() const { return starts_; }
+  compute::Buffer<int>& starts() { return starts_; }
   const int& slots() const { return slots_; }
 
  private:

@@ -119,5 +119,6 @@ template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&, std:
 template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&) const;
 template std::vector<float> SnapshotBlocks::get(const std::string&, std::size_t) const;
 template std::vector<double> SnapshotBlocks::get(const std::string&, std::size_t) const;
+template std::vector<double> SnapshotBlocks::get(const std::string&) const;
 
 }  // namespace wavetank

@@ -95,7 +95,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       long_axes_(long_axes(discretisation, scene.numerics.precision)),
       case_walls_(scene, layout, discretisation),
       tiling_(tiling_for(device.info(), scene.numerics.precision, ghosts_)),
-      grid_shape_(grid_shape(discretisation, tiling_, room_for(scene, layout))),
+      grid_shape_(grid_shape(discretisation, tiling_, rows.parting ? rows.parting->particles : room_for(scene, layout))),
       state_(make_array(ParticleArray::state)),
       rates_(make_array(ParticleArray::rates)),
       gradient_(device, gradient_components(rows.methods(scene)) * static_cast<std::size_t>(stride_)),
@@ -126,6 +126,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
     throw Error("numerics/walls/method is ghost, whose mirror images stand still: walls that move need boundary_integral.");
   options_ = build_options(
       scene, {std::is_same_v<Real, double>, !images_.empty(), moving, moving_frame_, thinnest_wall().has_value(), long_axes_});
+  if (rows.parting) options_["PARTED"] = 1;
   values_.emplace(rows.parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
   accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
   compresses_by_gradients_ = compress_by_gradients(rows.methods(scene));
@@ -139,6 +140,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   surroundings_.stride = stride_;
   surroundings_.reach = static_cast<Real>(discretisation_.support);
   surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), static_cast<int>(stride_));
+  if (rows.parting)
+    part_ = std::make_unique<WaterPart<Real>>(device, *rows.parting, grid_shape_.rows_y * grid_shape_.rows_z, grid_shape_.slots(),
+                                              tiling_.particles.own);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});
@@ -147,9 +151,10 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   if (owners_move) moving_walls_.emplace(device, walls_, moving_, centres_, layout, discretisation_);
   bind_kernels();
   set_wall_motions(at_start);
-  upload_particles(layout);
+  if (!part_) upload_particles(layout);  // parts are given theirs by restore()
   schedule_ = rows.integrator(scene, this);
   schedule_.check();
+  if (part_) part_->exchanges = schedule_.exchanges();
 }
 
 /// Images bring walls to others far from them.
@@ -279,6 +284,10 @@ void SphSolver<Real>::set_film(const std::vector<FilmLump>& lumps) {
 
 template <class Real>
 void SphSolver<Real>::sort() {
+  if (part_) {
+    sort_part();
+    return;
+  }
   add_waiting();
   surroundings_.grid.sort(count_);
   std::swap(state_, half_);
@@ -309,14 +318,14 @@ template <class Real>
 void SphSolver<Real>::find_accelerations(Slot state) {
   if (accelerates_by_gradients_) find_gradients(state);
   load_walls(state);
-  kernels_.momentum[state].launch(count_);
+  over_own(kernels_.momentum[state]);
   hold_zones(state);
 }
 
 template <class Real>
 void SphSolver<Real>::find_compression_rates(Slot state) {
   if (compresses_by_gradients_) find_gradients(state);
-  kernels_.continuity[state].launch(count_);
+  over_own(kernels_.continuity[state]);
   hold_zones(state);
 }
 
@@ -324,13 +333,16 @@ template <class Real>
 void SphSolver<Real>::find_rates(Slot state) {
   find_gradients(state);
   load_walls(state);
-  kernels_.rates[state].launch(count_);
+  over_own(kernels_.rates[state]);
   hold_zones(state);
 }
 
 template <class Real>
 void SphSolver<Real>::find_gradients(Slot state) {
-  if (gradient_.size() > 0) kernels_.gradients[state].launch(count_);
+  if (gradient_.size() == 0) return;
+  spoil("gradients");
+  over_own(kernels_.gradients[state]);
+  refresh("gradients");
 }
 
 template <class Real>
@@ -368,15 +380,18 @@ void SphSolver<Real>::guard() {
 
 template <class Real>
 void SphSolver<Real>::sweep_surface() {
-  kernels_.normals.launch(count_);
-  kernels_.cone.launch(count_);
+  over_own(kernels_.normals);
+  refresh("surroundings");
+  over_own(kernels_.cone);
 }
 
 template <class Real>
 void SphSolver<Real>::find_shifts() {
   if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
+  spoil("surroundings");
   sweep_surface();
-  kernels_.shifts.launch(count_);
+  refresh("surroundings");
+  over_own(kernels_.shifts);
   if (zones_.any()) kernels_.hold_shifts.launch(count_);
   // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts
   if (case_.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume")) find_compression_rates(Slot::now);
@@ -445,7 +460,10 @@ StepReport SphSolver<Real>::advance(WallMover* mover) {
   step_wrenches_.clear();
   load_lost_ = false;
   try {
-    schedule_.run();
+    if (part_)
+      run_with_exchanges();
+    else
+      schedule_.run();
   } catch (...) {
     mover_ = nullptr;
     throw;
@@ -467,6 +485,8 @@ double SphSolver<Real>::shorten_step(double longest) {
 template <class Real>
 StepReport SphSolver<Real>::watch() {
   longest_step_ = static_cast<Real>(std::min(time_step_limit_, Discretisation::wall_reach * discretisation_.spacing / fastest_wall_));
+  const int in_part = count_;
+  if (part_) set_count(part_->watched());
   kernels_.watch_chunks.launch(chunks_);
   kernels_.watch_groups.launch(groups_);
   kernels_.watch_total.launch(1);
@@ -474,6 +494,10 @@ StepReport SphSolver<Real>::watch() {
   guarded_.read(values);
   std::vector<int> counted(reports_.integer_count());
   std::memcpy(counted.data(), &values[reports_.integers()], counted.size() * sizeof(int));
+  if (part_) {
+    set_count(in_part);
+    return watch_parts(values, counted);
+  }
   const auto greatest = [&](const char* name) { return static_cast<double>(values[reports_.greatest(name)]); };
   const auto count = [&](const char* name) { return counted[reports_.integer(name)]; };
   StepReport report;

@@ -19,13 +19,14 @@
 #include "tables/rows.h"
 #include "tank_images.h"
 #include "wall_wrenches.h"
+#include "water_part.h"
 #include "wavetank/sph/solver.h"
 #include "zones.h"
 
 namespace wavetank {
 
 /// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_population.cpp (how many particles
-/// there are), sph_solver_readings.cpp and sph_solver_snapshot.cpp.
+/// there are), sph_solver_parts.cpp (one part of the water among others), sph_solver_readings.cpp and sph_solver_snapshot.cpp.
 template <class Real>
 class SphSolver final : public Solver, private StepEngine {
  public:
@@ -58,6 +59,19 @@ class SphSolver final : public Solver, private StepEngine {
   void restore(const std::vector<char>& bytes) override;
   std::size_t device_memory() const override { return device_.allocated(); }
 
+  // of water in parts, whose solvers know their Parting
+  const GridShape& grid() const { return grid_shape_; }
+  /// How far a particle, at the most, is from where it was sorted when its neighbours are gone over, m.
+  double greatest_drift() const;
+  /// Particles by blocks of so many places along an axis, as Parting has them.
+  std::vector<std::int64_t> particles_in_blocks(const Parting& parting) const;
+  /// The next restore() takes of a state of all the water what lies between these cuts, and the halo.
+  void set_cuts(const std::vector<int>& cuts);
+  /// What the parts have saved of their own particles, as one would save it that had them all.
+  std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
+  /// Own particles.
+  std::int64_t own_count() const { return part_ ? part_->own : count_; }
+
  private:
   using Buffer = compute::Buffer<Real>;
   struct DevicePoints;
@@ -86,6 +100,12 @@ class SphSolver final : public Solver, private StepEngine {
   /// All stay in the water, wherever drains are.
   void sort_all();
   std::vector<int> order_by_id(const std::vector<std::uint32_t>& id) const;
+  /// As Parting counts it, of a coordinate along its axis.
+  int place_in_parts(const Parting& parting, Real coordinate) const;
+  /// Which of these the part has, as its own or in its halo.
+  std::vector<int> in_part(const std::vector<Real>& coordinates) const;
+  /// Without the other parts, which all have what they need.
+  void sort_alone();
   void upload_rates(const std::vector<Real>& by_id);
   compute::Arguments arguments() const;
   compute::Arguments arguments_of(Slot state) const;
@@ -95,6 +115,17 @@ class SphSolver final : public Solver, private StepEngine {
   void bind_time_step();
   void bind_zones();
   void bind_reductions();
+  void bind_part();
+  /// Every sweep goes over own particles alone.
+  void over_own(const BoundSweep& sweep) const;
+  /// A step of a part: as the schedule has it, with the exchanges that follow from it.
+  void run_with_exchanges();
+  void refresh(const char* name);
+  void spoil(const char* name);
+  void sort_part();
+  /// After a sort that the part has done alone.
+  void look_around();
+  StepReport watch_parts(const std::vector<Real>& values, const std::vector<int>& counted);
   void bind(const DevicePoints& points) const;
 
   /// Gravity's part along which the water is at rest at the start.
@@ -229,7 +260,8 @@ class SphSolver final : public Solver, private StepEngine {
   Real longest_step_ = 0;  ///< bound on Δt from what moves besides the fluid, s
   Trial trial_;
   std::optional<KernelMaker> make_;
-  int bindings_ = 0;  ///< how often kernels were bound
+  int bindings_ = 0;                       ///< how often kernels were bound
+  std::unique_ptr<WaterPart<Real>> part_;  ///< of a solver of a part of the water
   Kernels kernels_;
   Schedule schedule_;
 };

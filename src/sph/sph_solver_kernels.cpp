@@ -34,6 +34,7 @@ void SphSolver<Real>::bind_kernels() {
                  {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
   guarded_.bind(*make_, arguments().memory("report", report_));
   if (moving_walls_) moving_walls_->bind(*make_, arguments(), walls_);
+  if (part_) bind_part();
 }
 
 template <class Real>

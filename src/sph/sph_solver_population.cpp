@@ -107,7 +107,7 @@ void SphSolver<Real>::reserve(int count) {
       group_watches(device_, groups * reports_.greatest_count()), energy_parts(device_, chunks * field::energy_count);
   compute::Buffer<int> alarms(device_, chunks * reports_.integer_count()), group_alarms(device_, groups * reports_.integer_count());
   guarded_.reserve(stride);
-  surroundings_.grid.reserve(device_, static_cast<int>(stride));
+  surroundings_.grid.reserve(device_, static_cast<int>(stride), part_ ? 1 + 2 * static_cast<int>(stride) : 0);
 
   for (std::size_t k = 0; k < larger.size(); ++k) *arrays[k] = std::move(larger[k]);
   id_ = std::move(ids);
@@ -120,6 +120,7 @@ void SphSolver<Real>::reserve(int count) {
   group_alarms_ = std::move(group_alarms);
   energy_parts_ = std::move(energy_parts);
   stride_ = surroundings_.stride = stride;
+  if (part_) part_->reserve(stride);
 }
 
 template <class Real>

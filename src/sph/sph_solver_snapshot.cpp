@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -36,9 +37,11 @@ template <class Real>
 std::vector<char> SphSolver<Real>::save() const {
   const std::vector<Real> state = state_.download(), rates = rates_.download();
   const std::vector<std::uint32_t> id = id_.download(count_);
-  const std::vector<int> order = order_by_id(id);
+  std::vector<int> order = order_by_id(id);
+  if (part_)
+    order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return component(state, "own")[i] == Real(0); }), order.end());
   const auto in_order = [&](const auto& value_of) {
-    std::vector<std::decay_t<decltype(value_of(0))>> values(count_);
+    std::vector<std::decay_t<decltype(value_of(0))>> values(order.size());
     std::transform(order.begin(), order.end(), values.begin(), value_of);
     return values;
   };
@@ -62,11 +65,11 @@ template <class Real>
 void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const SnapshotBlocks blocks(bytes);
   std::vector<std::string> names{id_block, next_id_block, step_block, lists_block, guard_block};
-  const std::vector<std::uint32_t> id =
-      open_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
+  std::vector<std::uint32_t> id =
+      open_ || part_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
   const double next_id = blocks.get<double>(next_id_block, 1)[0];
   const bool ascending = std::adjacent_find(id.begin(), id.end(), std::greater_equal<>()) == id.end();
-  if (!ascending || (!id.empty() && next_id <= id.back()) || (!open_ && next_id != given_))
+  if (!ascending || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
     throw Error("the snapshot's particles are not those of this case: their ids are others.");
   std::vector<std::pair<const FieldRow*, std::vector<std::vector<Real>>>> fields;
   for (const FieldRow& row : fields_.rows()) {
@@ -81,8 +84,21 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const std::vector<double> listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
   const std::vector<double> impulses = blocks.get<double>(guard_block, guarded_.values().size());
   blocks.expect_no_others(names);
+  if (part_) {
+    const int axis = part_->parting().axis;
+    const std::vector<int> mine = in_part(blocks.get<Real>(std::string("particles: ") + "xyz"[axis], id.size()));
+    const auto pick = [&](auto& values) {
+      auto picked = values;
+      picked.resize(mine.size());
+      for (std::size_t k = 0; k < mine.size(); ++k) picked[k] = values[mine[k]];
+      values = std::move(picked);
+    };
+    pick(id);
+    for (auto& field : fields)
+      for (std::vector<Real>& values : field.second) pick(values);
+  }
 
-  reserve(static_cast<int>(id.size()));
+  reserve(std::max(static_cast<int>(id.size()), 1));
   set_count(static_cast<int>(id.size()));
   next_id_ = static_cast<std::int64_t>(next_id);
   waiting_ = NewParticles();
@@ -99,14 +115,50 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
       std::copy(components[k].begin(), components[k].end(),
                 (row->array == ParticleArray::state ? state : rates).begin() +
                     static_cast<std::ptrdiff_t>(index_of(row->components[k].c_str(), 0, row->array)));
+  if (part_) std::fill_n(component(state, "own"), count_, Real(1));  // as if all had just come
   // what lies beyond the particles may be left from a run that has gone wrong
   half_.fill_zero();
   gradient_.fill_zero();
   state_.upload(state);
   id_.upload(id);
-  sort_all();
+  if (part_)
+    sort_alone();
+  else
+    sort_all();
   upload_rates(rates);
   masses_let_in_.clear();
+}
+
+template <class Real>
+std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& parts) const {
+  std::vector<SnapshotBlocks> given;
+  std::vector<std::vector<std::uint32_t>> ids;
+  std::vector<std::array<std::size_t, 2>> order;  // part, and place in it
+  for (const std::vector<char>& bytes : parts) {
+    given.emplace_back(bytes);
+    ids.push_back(given.back().get<std::uint32_t>(id_block));
+    for (std::size_t k = 0; k < ids.back().size(); ++k) order.push_back({ids.size() - 1, k});
+  }
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return ids[a[0]][a[1]] < ids[b[0]][b[1]]; });
+  const auto in_order = [&order](const auto& values) {
+    auto all = values[0];
+    all.resize(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) all[k] = values[order[k][0]][order[k][1]];
+    return all;
+  };
+  SnapshotBlocks blocks;
+  blocks.put(id_block, in_order(ids));
+  for (const FieldRow& row : fields_.rows()) {
+    if (!row.is_saved) continue;
+    for (const std::string& component : row.components) {
+      std::vector<std::vector<Real>> values;
+      for (std::size_t part = 0; part < parts.size(); ++part)
+        values.push_back(given[part].get<Real>(block_of(row, component), ids[part].size()));
+      blocks.put(block_of(row, component), in_order(values));
+    }
+  }
+  for (const char* of_all : {next_id_block, step_block, lists_block, guard_block}) blocks.put(of_all, given[0].get<double>(of_all));
+  return blocks.bytes();
 }
 
 /// Given in the order of their ids, into that which the particles have on the device.
@@ -122,6 +174,8 @@ void SphSolver<Real>::upload_rates(const std::vector<Real>& by_id) {
 
 template std::vector<char> SphSolver<float>::save() const;
 template void SphSolver<float>::restore(const std::vector<char>&);
+template std::vector<char> SphSolver<float>::joined(const std::vector<std::vector<char>>&) const;
+template std::vector<char> SphSolver<double>::joined(const std::vector<std::vector<char>>&) const;
 template std::vector<char> SphSolver<double>::save() const;
 template void SphSolver<double>::restore(const std::vector<char>&);
 

@@ -57,6 +57,40 @@ TEST(ChooseDevice, RefusesUnknownOnesAndListsWhatThereIs) {
   }
 }
 
+TEST(ChooseDevices, TakesOneSeveralOrAll) {
+  const DeviceInfo first = choose_device("auto");
+  const auto indices = [](const std::vector<DeviceInfo>& devices) {
+    std::string text;
+    for (const DeviceInfo& device : devices) text += (text.empty() ? "" : " ") + device.indices();
+    return text;
+  };
+  EXPECT_EQ(indices(choose_devices("auto")), first.indices());
+  EXPECT_EQ(indices(choose_devices(first.indices() + ", auto")), first.indices() + " " + first.indices());
+  EXPECT_EQ(choose_devices("all").size(), list_devices().size());
+  EXPECT_TRUE(contains(error_of([&] { choose_devices("auto,abacus"); }), "\"abacus\""));
+  EXPECT_TRUE(contains(error_of([&] { choose_devices("auto,"); }), "\"\""));
+  for (const char* pieces : {"auto/0", "auto/9999"})
+    EXPECT_TRUE(contains(error_of([&] { choose_devices(pieces); }), "cannot be divided into")) << pieces;
+}
+
+TEST(ChooseDevices, APieceOfADeviceComputes) {
+  const DeviceInfo whole = choose_device("auto");
+  if (whole.is_gpu || whole.compute_units < 2) GTEST_SKIP() << "no CPU with two units";
+  const std::vector<DeviceInfo> halves = choose_devices(whole.indices() + "/2");
+  ASSERT_EQ(halves.size(), 2u);
+  for (const DeviceInfo& half : halves) {
+    EXPECT_EQ(half.indices(), whole.indices() + "/2");
+    EXPECT_EQ(half.compute_units, whole.compute_units / 2);
+    const Device device(half);
+    Buffer<int> values(device, std::vector<int>{1, 2, 3});
+    Program(device, {{"twice.cl", "__kernel void twice(__global int* v) { v[get_global_id(0) % 3] *= get_global_id(0) < 3 ? 2 : 1; }"}},
+            "twice.cl", "")
+        .kernel("twice")
+        .launch(3, values);
+    EXPECT_EQ(values.download(), (std::vector<int>{2, 4, 6}));
+  }
+}
+
 TEST(Device, RefusesAnEntryThatIsGone) {
   DeviceInfo gone = choose_device("auto");
   gone.device = 1000;

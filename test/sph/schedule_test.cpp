@@ -47,6 +47,34 @@ TEST(Schedule, RunsItsStagesInTheirOrder) {
   EXPECT_EQ(order, "abab");
 }
 
+/// "stage: arrays; …" of what a part is sent after its own particles' are found.
+std::string exchanges_of(const Case& scene) {
+  const Schedule schedule = schedule_of(scene, nullptr);
+  const std::vector<std::vector<Access>> exchanges = schedule.exchanges();
+  std::string text;
+  for (std::size_t k = 0; k < exchanges.size(); ++k) {
+    if (exchanges[k].empty()) continue;
+    text += (text.empty() ? "" : "; ") + schedule.stages()[k].name + ":";
+    for (const Access& access : exchanges[k]) text += " " + access.array;
+  }
+  return text;
+}
+
+TEST(Schedule, SaysWhatPartsExchange) {
+  Case scene;
+  scene.numerics.integrator = Integrator::symplectic;
+  EXPECT_EQ(exchanges_of(scene), "compression rates: compression rate");
+  scene.numerics.shifting = Shifting::sun;
+  EXPECT_EQ(exchanges_of(scene), "shifts by sun: shift; compression rates: compression rate");
+  scene.numerics.shifting = Shifting::none;
+  scene.numerics.integrator = Integrator::predictor_corrector;
+  EXPECT_EQ(exchanges_of(scene), "rates of the start: acceleration compression rate");
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  EXPECT_EQ(exchanges_of(scene),
+            "rates of the start: acceleration compression rate; rates of the middle, k2: acceleration compression rate; rates of the "
+            "middle, k3: acceleration compression rate");
+}
+
 TEST(Schedule, OfEveryIntegratorIsSoundAndKnowsItsDrift) {
   const std::pair<Integrator, double> drifts[] = {
       {Integrator::symplectic, 0.5}, {Integrator::predictor_corrector, 1.0}, {Integrator::runge_kutta_4, 1.0}};

@@ -13,6 +13,8 @@ namespace wavetank::compute {
 struct DeviceInfo {
   int platform = 0;  ///< index in this list's platforms
   int device = 0;    ///< index in its platform
+  int pieces = 1;    ///< into which the device is divided, of as many units each
+  int piece = 0;     ///< the one that this is
   std::string platform_name;
   std::string name;
   std::string driver;   ///< driver version
@@ -24,7 +26,7 @@ struct DeviceInfo {
   std::size_t global_memory = 0;   ///< bytes
   std::size_t max_allocation = 0;  ///< bytes
   std::size_t max_work_group = 0;
-  std::string indices() const;   ///< "0:0", as choose_device takes them
+  std::string indices() const;   ///< "0:0", as choose_device takes them; of a piece "0:0/2"
   std::string describe() const;  ///< one line: "0:0 NAME (PLATFORM, driver D, 2 units, 23.4 GiB)"
 };
 
@@ -34,6 +36,11 @@ std::vector<DeviceInfo> list_devices();
 /// `auto` = the first GPU, else the first CPU; `cpu`, `gpu`; "P:D" by indices; anything else = a part of the device's name,
 /// case-insensitive, which must match exactly one. Throws Error that lists what is there.
 DeviceInfo choose_device(const std::string& selector);
+
+/// One or several, for the parts of one case: selectors as choose_device takes them with commas between them, each of which may end in /N,
+/// for N pieces of that device with as many units each; the same may be named again. `all`: every device of the machine. Throws Error as
+/// choose_device does, and for a device that cannot be divided so.
+std::vector<DeviceInfo> choose_devices(const std::string& selectors);
 
 struct KernelTiming {
   std::string kernel;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "wavetank/sph/kernel_sources.h"
+#include "wavetank/sph/parted_solver.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank::bench {
@@ -94,6 +95,8 @@ class Runs {
   void run_drains(const Case& scene);
   /// Of a case whose one opening's water moves in at 0.1 m/s.
   void run_openings(const Case& checked);
+  /// In two parts, what the one has not been sent by the other being no number.
+  void run_parts(const Case& checked);
   EveryKernel result();
 
  private:
@@ -171,6 +174,29 @@ void Runs::run_openings(const Case& checked) {
   ++found_.cases;
   if (!solver->advance().valid()) ++found_.violations;
   read(*solver);
+}
+
+void Runs::run_parts(const Case& checked) {
+  const Layout layout = lay_out(checked);
+  const Case scene = settled(checked, layout);
+  PartedSolverOptions options;
+  options.spoils = true;
+  const auto solver = make_parted_solver({device_, compute::Device(device_.info(), true)}, scene, layout, discretise(scene, layout),
+                                         {1 + scene.bodies.size(), box_centre}, options);
+  solver->start();
+  ++found_.cases;
+  bool valid = true;
+  for (int step = 0; step < 2; ++step) valid = solver->advance().valid() && valid;
+  if (!valid) ++found_.violations;
+  read(*solver);
+}
+
+/// Over the whole floor, long enough for two parts.
+Case long_water(int dimensions) {
+  Case scene = column(dimensions);
+  scene.bodies.clear();
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.35, dimensions == 3 ? 0.25 : 0, 0.1)}};
+  return scene;
 }
 
 /// Water that comes in by a wall, a shifting law that leaves it be, and a zone that damps some of the rest.
@@ -296,6 +322,7 @@ void run_few(Runs& runs) {
   Carried mover(3);
   runs.run(scene, &mover);
   runs.run_openings(with_inlet(2));
+  runs.run_parts(long_water(2));
 }
 
 /// Least squares between wall integrals, by fits found as they are used, and between ghosts, by fits that neighbours are asked for.
@@ -356,6 +383,7 @@ void run_all(Runs& runs) {
   runs.run_wide(shifted);
   runs.run_drains(column(2));
   runs.run_openings(with_inlet(2));
+  runs.run_parts(long_water(2));
 }
 
 }  // namespace

@@ -39,3 +39,20 @@ INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) 
 #endif
   return row_index(p, ry, rz) * p->slots_x + slot_coordinate(p, x);
 }
+
+#ifdef PARTED
+// A solver of a part of the water has its own particles and a halo of others' in one sorted array. The parts are cut across one axis, between slots (along
+// x) or rows; a particle's place along that axis, counted so, tells whose it is.
+INLINE int place_in_parts(__constant const parameters_t* p, real x, real y, real z) {
+  if (p->part_axis == 0) return slot_coordinate(p, x);
+  return p->part_axis == 1 ? cell_coordinate(y, p->inverse_row, p->rows_y) : cell_coordinate(z, p->inverse_row, p->rows_z);
+}
+
+// A particle that is nowhere, or farther than in the next part, stays with the part that has it: the watchdog has to see it.
+INLINE bool is_astray(__constant const parameters_t* p, real x, real y, real z, int place) {
+  return not_finite(x) || not_finite(y) || not_finite(z) || place < p->near_begin || place >= p->near_end;
+}
+
+// The list of tiles lies behind the starts of the slots: how many, then of each its first particle and that after its last.
+#define TILE_LIST(p) ((p)->slots_x * (p)->rows_z * (DIMENSIONS == 3 ? (p)->rows_y : 1) + 2)
+#endif

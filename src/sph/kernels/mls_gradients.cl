@@ -9,8 +9,7 @@
 
 __kernel void gradients(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                         WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   start_sums(&a, p, first, count, state, stride, reach, &walls, gradient);

@@ -1,6 +1,7 @@
 // Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, as many chunks of those while there are more than that, and
 // the last ones' results by one. Built without fast-math, and non-finite values are found by their bits all the same.
 #include "common.cl"
+#include "cells.cl"
 #include "equation_of_state.cl"
 #include "damping_rate.cl"
 
@@ -33,6 +34,17 @@ INLINE watched_t watched(__constant const parameters_t* p, __global const real* 
   found.fast = found.sound && found.speed2 > p->greatest_speed * p->greatest_speed ? 1 : 0;
   found.guarded = guarded;
   found.here = here;
+#ifdef PARTED
+  // of others the state is watched by others; rates and hits of them are stilled
+  const int place = place_in_parts(p, x, y, z);
+  if (!here || state[FIELD_OWN * stride + i] == R(0.0)) {
+    found.here = found.broken = found.outside = found.fast = 0;
+    found.infected = not_finite(found.shepard) ? 1 : 0;
+    found.speed2 = R(0.0);
+  } else if (found.sound && is_astray(p, x, y, z, place)) {
+    found.outside = 1;
+  }
+#endif
   return found;
 }
 

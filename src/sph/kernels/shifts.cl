@@ -169,8 +169,7 @@ INLINE vector_t under_surface(vector_t shift, real eigenvalue, real depth, vecto
 
 __kernel void shifts(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, long stride, real reach,
                      WALL_ARGUMENTS, __global const real* images, __global const real* around, __global const real* time_step) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);

@@ -98,8 +98,7 @@ INLINE vector_t outward(const symmetric_t* m, vector_t sum) {
 
 __kernel void surface_normals(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
                               real reach, WALL_ARGUMENTS, __global const real* images, __global real* around) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);

@@ -9,6 +9,20 @@
 #endif
 #define TILE_LANES (TILE_OWN * TILE_NEAR)
 
+// The first particle of the work-item's tile; `count` becomes that after its last, or stays that after the last of all. In a part of the water a tile has
+// particles of one segment of a row alone, so that tiles are the same whatever the parts are.
+#ifdef PARTED
+#define TAKE_TILE(first, count)                                                    \
+  __global const int* tile_of_item = slot_start + TILE_LIST(p);                    \
+  if ((int)get_global_id(0) >= tile_of_item[0]) return;                            \
+  const int first = tile_of_item[1 + 2 * get_global_id(0)];                        \
+  count = tile_of_item[2 + 2 * get_global_id(0)];
+#else
+#define TAKE_TILE(first, count)                    \
+  const int first = TILE_OWN * get_global_id(0);   \
+  if (first >= count) return;
+#endif
+
 // A function for few tiles. Where others would have its code in the midst of theirs, they are slower and all takes twice as long to compile.
 #if TILE_LANES > 1
 #define SELDOM static __attribute__((noinline))

@@ -101,6 +101,25 @@ double Schedule::drift() const {
   return most;
 }
 
+std::vector<std::vector<Access>> Schedule::exchanges() const {
+  std::vector<std::vector<Access>> result(stages_.size());
+  std::set<Access> wanted;              // of the halo, by what comes after
+  for (int step = 0; step < 2; ++step)  // backwards; the first time round finds what the next step wants at the end of this one
+    for (std::size_t k = stages_.size(); k-- > 0;) {
+      const Stage& stage = stages_[k];
+      if (stage.sorts) {
+        wanted.clear();
+        continue;
+      }
+      std::vector<Access> made;
+      for (const Access& access : stage.writes)
+        if (wanted.erase(access) > 0) made.push_back(access);
+      if (stage.sweeps) result[k] = made;
+      if (stage.sweeps || !made.empty()) wanted.insert(stage.reads.begin(), stage.reads.end());
+    }
+  return result;
+}
+
 bool Schedule::writes(const std::string& array) const {
   for (const Stage& stage : stages_)
     for (const Access& access : stage.writes)

@@ -48,6 +48,10 @@ class Schedule {
   double drift() const;
   /// Whether a stage writes this array at any instant.
   bool writes(const std::string& array) const;
+  /// Of each stage, what it writes of a part's own particles that the part must then be sent of its halo: what later stages go over the
+  /// neighbours of, or make that of. What others write, a part finds for its halo as for itself; a sort brings a new halo, with its state.
+  std::vector<std::vector<Access>> exchanges() const;
+  const std::vector<Stage>& stages() const { return stages_; }
   void run() const;
 
  private:

@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "../integrators/integrator.h"
 #include "../methods/method.h"
+#include "../parting.h"
 #include "fields.h"
 #include "parameters.h"
 #include "reports.h"
@@ -23,6 +25,7 @@ struct SolverRows {
   std::function<Schedule(const Case&, StepEngine* engine)> integrator = [](const Case& scene, StepEngine* engine) {
     return schedule_of(scene, engine);
   };
+  std::optional<Parting> parting;  ///< of a solver of a part of the water
 };
 
 /// Those of a case, with what its methods bring.

@@ -1,0 +1,38 @@
+#include "parting.h"
+
+#include <algorithm>
+
+namespace wavetank {
+
+const std::vector<FieldRow>& part_fields() {
+  static const std::vector<FieldRow> rows{{ParticleArray::state, {"own"}, "", "1 of the part's own particles, 0 of those of its halo"}};
+  return rows;
+}
+
+const std::vector<ParameterRow>& part_parameters() {
+  static const std::vector<ParameterRow> rows = [] {
+    std::vector<ParameterRow> made;
+    for (const char* name : {"part_axis", "own_begin", "own_end", "halo_begin", "halo_end", "near_begin", "near_end", "halo_width"})
+      made.push_back({name, "", "of a part of the water", [](const ParameterSource&) { return 0.0; }, ParameterRow::Kind::integer});
+    return made;
+  }();
+  return rows;
+}
+
+void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts) {
+  const int rank = parting.group->rank(), last = parting.group->size() - 1;
+  const auto place = [&](int cut) { return 1 + std::min(cuts[cut] * parting.block, parting.places); };
+  const int begin = place(rank), end = place(rank + 1);
+  values.set("part_axis", parting.axis);
+  values.set("own_begin", begin);
+  values.set("own_end", end);
+  values.set("halo_begin", rank > 0 ? begin - parting.halo : begin);
+  values.set("halo_end", rank < last ? end + parting.halo : end);
+  values.set("near_begin", place(std::max(rank - 1, 0)));
+  values.set("near_end", place(std::min(rank + 2, last + 1)));
+  values.set("halo_width", parting.halo);
+}
+
+bool has_place(const ParameterBlock& values, int place) { return place >= values.at("halo_begin") && place < values.at("halo_end"); }
+
+}  // namespace wavetank

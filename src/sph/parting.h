@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tables/fields.h"
+#include "tables/parameters.h"
+#include "wavetank/parallel/group.h"
+
+namespace wavetank {
+
+/// How the water of a case is cut into parts: the same for all of them, and for any number of them. Places along the axis are counted in
+/// the slots of the particles' grid along x, or in its rows; the first is 1, since the grid has an empty border.
+struct Parting {
+  parallel::Group* group = nullptr;  ///< the part and those beside it
+  int axis = 0;                      ///< across which the water is cut
+  int halo = 0;                      ///< places beside its own of which a part has the particles of others
+  int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks
+  int segment = 0;                   ///< slots, of which tiles have particles together
+  int places = 0;                    ///< in all
+  std::size_t particles = 0;         ///< in all parts together
+  bool spoils = false;               ///< for tests: what others have not sent yet is not a number
+
+  int blocks() const { return (places + block - 1) / block; }
+};
+
+/// What a solver of a part has besides: which particles are its own, and where parts end.
+const std::vector<FieldRow>& part_fields();
+const std::vector<ParameterRow>& part_parameters();
+
+/// Sets those of the part of this rank, where the parts begin and end at these blocks.
+void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts);
+
+/// Whether the part whose numbers these are has the particles of a place, as its own or in its halo.
+bool has_place(const ParameterBlock& values, int place);
+
+}  // namespace wavetank

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sph_solver.h"
+#include "wavetank/common/error.h"
+
+namespace wavetank {
+namespace {
+
+// Of the report's least id: no particle is in violation.
+constexpr std::int64_t nobody_offends = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
+
+template <class Real>
+void SphSolver<Real>::bind_part() {
+  compute::Arguments all = arguments();
+  all.memory("state", state_).memory("half_state", half_).memory("rates", rates_).memory("guard_hits", guarded_.hits);
+  part_->bind(*make_, all, surroundings_.grid.starts(), case_.numerics.integrator == Integrator::symplectic);
+  const auto carry = [&](const char* name, const std::vector<int>& places, Buffer& array) {
+    if (!places.empty()) part_->carry(name, places, std::as_const(array), array, *make_, all);
+  };
+  const auto first = [](int count) {
+    std::vector<int> places(count);
+    for (int k = 0; k < count; ++k) places[k] = k;
+    return places;
+  };
+  const auto places = [&](ParticleArray array, const std::vector<std::string>& components) {
+    std::vector<int> found;
+    for (const std::string& name : components)
+      if (fields_.has(array, name)) found.push_back(fields_.at(array, name));
+    return found;
+  };
+  std::vector<std::string> evolving;
+  for (const FieldRow& row : fields_.rows())
+    if (row.array == ParticleArray::state && row.evolution != FieldRow::Evolution::none)
+      evolving.insert(evolving.end(), row.components.begin(), row.components.end());
+  carry("state", first(fields_.count(ParticleArray::state)), state_);
+  carry("acceleration", places(ParticleArray::rates, {"u", "v", "w"}), rates_);
+  carry("compression rate", places(ParticleArray::rates, evolving), rates_);
+  carry("shift", places(ParticleArray::state, {"shift_x", "shift_y", "shift_z"}), state_);
+  carry("gradients", first(static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_))), gradient_);
+  if (shifts()) carry("surroundings", first(field::around_count), around_);
+}
+
+template <class Real>
+void SphSolver<Real>::over_own(const BoundSweep& sweep) const {
+  if (part_)
+    sweep.kernel.launch(static_cast<std::size_t>(part_->tiles()));
+  else
+    sweep.launch(count_);
+}
+
+template <class Real>
+void SphSolver<Real>::refresh(const char* name) {
+  if (part_) part_->refresh(name);
+}
+
+template <class Real>
+void SphSolver<Real>::spoil(const char* name) {
+  if (part_ && part_->parting().spoils) part_->spoil(name);
+}
+
+template <class Real>
+void SphSolver<Real>::run_with_exchanges() {
+  for (std::size_t k = 0; k < schedule_.stages().size(); ++k) {
+    const Stage& stage = schedule_.stages()[k];
+    for (const Access& access : stage.writes)
+      if (stage.sweeps && part_->carries(access.array)) spoil(access.array.c_str());
+    stage.run();
+    for (const Access& access : part_->exchanges[k]) {
+      if (access.array == "walls" || access.array == "wrenches") continue;  // no values of particles
+      if (!part_->carries(access.array))
+        throw Error("stage '" + stage.name + "' finds the " + access.array + " of a part's own particles, which the parts do not exchange");
+      refresh(access.array.c_str());
+    }
+  }
+}
+
+template <class Real>
+void SphSolver<Real>::sort_part() {
+  const int before = count_;
+  const std::vector<typename WaterPart<Real>::Arrived> arrived = part_->exchange_particles(count_);
+  int all = before;
+  for (const auto& some : arrived) all += static_cast<int>(some.id.size());
+  reserve(all);
+  for (const auto& some : arrived) {
+    const std::size_t count = some.id.size();
+    for (int f = 0; count > 0 && f < fields_.count(ParticleArray::state); ++f)
+      state_.memory().write(&some.values[f * count], count * sizeof(Real), (f * static_cast<std::size_t>(stride_) + count_) * sizeof(Real));
+    if (count > 0) id_.memory().write(some.id.data(), count * sizeof(std::uint32_t), count_ * sizeof(std::uint32_t));
+    set_count(count_ + static_cast<int>(count));
+  }
+  part_->still_others(before, all - before);
+  sort_alone();
+}
+
+template <class Real>
+void SphSolver<Real>::sort_alone() {
+  surroundings_.grid.sort(count_);
+  std::swap(state_, half_);
+  std::swap(id_, spare_id_);
+  surroundings_.reach = static_cast<Real>(discretisation_.support);
+  set_count(part_->look_around(count_));
+}
+
+template <class Real>
+StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const std::vector<int>& counted) {
+  parallel::Group& group = *part_->parting().group;
+  std::vector<double> greatest;
+  std::vector<std::int64_t> counts;
+  for (const ReportRow& row : reports_.rows()) {
+    if (row.kind == ReportRow::Kind::greatest) greatest.push_back(values[reports_.greatest(row.name)]);
+    if (row.kind == ReportRow::Kind::count) counts.push_back(counted[reports_.integer(row.name)]);
+  }
+  greatest = group.greatest(greatest);
+  counts = group.sums(counts);
+  part_->own = counted[reports_.integer("particles")];
+  std::map<std::string, double> found;
+  std::size_t next_greatest = 0, next_count = 0;
+  for (const ReportRow& row : reports_.rows()) {
+    if (row.kind == ReportRow::Kind::greatest) found[row.name] = greatest[next_greatest++];
+    if (row.kind == ReportRow::Kind::count) found[row.name] = static_cast<double>(counts[next_count++]);
+  }
+  if (found["particles"] != static_cast<double>(part_->parting().particles))
+    throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
+                " particles together, not " + std::to_string(part_->parting().particles) + ": some were lost between them");
+  StepReport report;
+  report.greatest_speed = greatest_speed_ = found["speed"];
+  report.greatest_acceleration = greatest_acceleration_ = found["acceleration"];
+  // as reduce.cl has it
+  const Real h = static_cast<Real>(values_->at("smoothing_length")), courant = static_cast<Real>(values_->at("courant"));
+  Real step = courant * h / (static_cast<Real>(values_->at("sound_speed")) + static_cast<Real>(greatest_speed_));
+  step = std::min(step, courant * std::sqrt(h / std::max(static_cast<Real>(greatest_acceleration_), Real(1e-20))));
+  step = std::min({step, static_cast<Real>(values_->at("viscous_time")), longest_step_});
+  report_.memory().write(&step, sizeof step);
+  report.time_step = step_ = step;
+  report.not_finite = static_cast<int>(found["not_finite"]);
+  report.outside = static_cast<int>(found["outside"]);
+  report.too_fast = static_cast<int>(found["fast"]);
+  report.guard_hits = static_cast<int>(found["guarded"]);
+  report.shepard_bounded = static_cast<int>(found["bounded"]);
+  for (std::size_t k = common_reports().size(); k < reports_.rows().size(); ++k) {
+    const std::string& name = reports_.rows()[k].name;
+    report.more[name] = found[name];
+  }
+  if (report.not_finite + report.outside + report.too_fast == 0) return report;
+  // the one of the least id is told of, by the part that has it
+  StepReport described = report;
+  const bool offends =
+      counted[reports_.integer("not_finite")] + counted[reports_.integer("outside")] + counted[reports_.integer("fast")] > 0;
+  if (offends) describe_offender(described, counted[reports_.integer("offender")]);
+  const std::int64_t least = group.least({offends ? static_cast<std::int64_t>(described.offender_id) : nobody_offends})[0];
+  return offends && described.offender_id == least ? described : report;
+}
+
+template <class Real>
+int SphSolver<Real>::place_in_parts(const Parting& parting, Real coordinate) const {
+  const Real inverse = static_cast<Real>(values_->at(parting.axis == 0 ? "inverse_slot" : "inverse_row"));
+  const Real scaled = coordinate * inverse;
+  const int place = static_cast<int>(std::min(std::max(scaled, Real(0)), Real(1e6))) + 1;
+  return std::min(std::max(place, 1), parting.places);
+}
+
+template <class Real>
+std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>& coordinates) const {
+  std::vector<int> found;
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    if (has_place(*values_, place_in_parts(part_->parting(), coordinates[k]))) found.push_back(static_cast<int>(k));
+  return found;
+}
+
+template <class Real>
+std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting& parting) const {
+  std::vector<std::int64_t> counts(parting.blocks(), 0);
+  const std::vector<Real> state = state_.download();
+  const Real* const coordinates = component(state, parting.axis == 0 ? "x" : parting.axis == 1 ? "y" : "z");
+  for (int i = 0; i < count_; ++i) ++counts[(place_in_parts(parting, coordinates[i]) - 1) / parting.block];
+  return counts;
+}
+
+template <class Real>
+void SphSolver<Real>::set_cuts(const std::vector<int>& cuts) {
+  wavetank::set_cuts(*values_, part_->parting(), cuts);
+  upload_parameters(*values_);
+}
+
+template <class Real>
+double SphSolver<Real>::greatest_drift() const {
+  const double shift = shifts() ? field::shift_most * discretisation_.spacing : 0;
+  return schedule_.drift() * (0.5 * case_.numerics.courant * discretisation_.smoothing_length + shift);
+}
+
+#define WAVETANK_PARTS(Real)                                                                           \
+  template void SphSolver<Real>::bind_part();                                                          \
+  template void SphSolver<Real>::over_own(const BoundSweep&) const;                                    \
+  template void SphSolver<Real>::refresh(const char*);                                                 \
+  template void SphSolver<Real>::spoil(const char*);                                                   \
+  template void SphSolver<Real>::run_with_exchanges();                                                 \
+  template void SphSolver<Real>::sort_part();                                                          \
+  template void SphSolver<Real>::sort_alone();                                                         \
+  template StepReport SphSolver<Real>::watch_parts(const std::vector<Real>&, const std::vector<int>&); \
+  template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \
+  template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;       \
+  template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
+  template double SphSolver<Real>::greatest_drift() const;
+WAVETANK_PARTS(float)
+WAVETANK_PARTS(double)
+
+}  // namespace wavetank

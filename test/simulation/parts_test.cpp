@@ -1,0 +1,52 @@
+// A simulation on several devices: its samples and snapshots are the same for any number of them, and what they cannot do is refused.
+#include "simulation_fixture.h"
+
+namespace wavetank {
+namespace {
+
+using Parts = SimulationTest;
+
+Case on(const std::string& devices) {
+  Case scene = dam_break(0.02);
+  scene.numerics.packing.iterations = 10;
+  scene.device = devices;
+  return scene;
+}
+
+TEST_F(Parts, HaveTheSameSamplesAndSnapshots) {
+  Simulation two(on("auto,auto")), three(on("auto,auto,auto"));
+  const Samples samples = run_steps(two, 100);
+  EXPECT_GT(samples.pressures.size(), 20u);
+  EXPECT_TRUE(same(samples, run_steps(three, 100)));
+  EXPECT_TRUE(snapshot(two) == snapshot(three));
+  EXPECT_EQ(two.device_description().rfind("2 parts on ", 0), 0u) << two.device_description();
+}
+
+TEST_F(Parts, GoOnFromASnapshotOfOthers) {
+  Simulation two(on("auto,auto"));
+  run_steps(two, 50);
+  two.save(path("half"));
+  run_steps(two, 50);
+  Simulation three(on("auto,auto,auto"));
+  three.restore(path("half"));
+  run_steps(three, 50);
+  EXPECT_TRUE(snapshot(two) == snapshot(three));
+  three.reset();
+  run_steps(three, 100);
+  EXPECT_TRUE(snapshot(two) == snapshot(three));
+}
+
+TEST_F(Parts, AreRefusedWhatTheyCannotDo) {
+  Case scene = on("auto,auto");
+  BodyCase box;
+  box.name = "box";
+  box.shape = Box{Vector3d(0.7, 0, 0.3), Vector3d(0.9, 0, 0.4)};
+  box.motion = Motion::free;
+  box.rigid.density = 500;
+  scene.bodies = {box};
+  EXPECT_EQ(error_of([&] { Simulation simulation(scene); }),
+            "device names 2 devices, but body 'box' moves, which several devices cannot do together yet: choose one device.");
+}
+
+}  // namespace
+}  // namespace wavetank
