@@ -2,7 +2,7 @@
 // bodies that have their own; and what the walls get is what the water loses.
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::friction_test {
 namespace {
 
 constexpr double length = 1, depth = 0.6, spacing = 0.03, friction_velocity = 0.05;
@@ -155,4 +155,4 @@ TEST(Eddies, HaveSmagorinskysViscosity) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::friction_test
