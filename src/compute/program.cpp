@@ -45,7 +45,7 @@ std::string build_log(cl_program program, cl_device_id device) {
 Program::State::State(std::shared_ptr<Device::State> on, const SourceFiles& sources, const std::string& main_file, const std::string& given)
     : device(std::move(on)),
       main(main_file),
-      source(resolve_includes(sources, main)),
+      source(definitions_that_matter(resolve_includes(sources, main))),
       files(sources),
       options(with_own_options(options_that_matter(given, source))) {}
 
@@ -118,10 +118,10 @@ Program::Program(const Device& device, const SourceFiles& files, const std::stri
   if (when == Build::now) state_->built();
 }
 
-Kernel Program::kernel(const std::string& name) const {
+Kernel Program::kernel(const std::string& name, Items items) const {
   if (!state_) throw Error("the kernel " + name + " was asked of a program that has not been built");
   Kernel kernel;
-  kernel.state_ = std::make_shared<Kernel::State>(state_, name);
+  kernel.state_ = std::make_shared<Kernel::State>(state_, name, items);
   if (state_->is_built()) kernel.state_->prepare();
   return kernel;
 }

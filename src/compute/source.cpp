@@ -6,6 +6,8 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <unordered_set>
 
 #include "wavetank/common/error.h"
 
@@ -133,15 +135,56 @@ void place_in_files(const std::string& resolved, CompilerError& error) {
   error.line = line_in_file;
 }
 
-std::set<std::string> identifiers(const std::string& text) {
-  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  std::set<std::string> found;
-  for (auto from = std::find_if(text.begin(), text.end(), is_part); from != text.end();) {
-    const auto to = std::find_if_not(from, text.end(), is_part);
-    found.emplace(from, to);
-    from = std::find_if(to, text.end(), is_part);
+using Names = std::unordered_set<std::string_view>;
+
+bool is_part_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+void add_names(std::string_view text, Names& names) {
+  for (auto from = std::find_if(text.begin(), text.end(), is_part_of_name); from != text.end();) {
+    const auto to = std::find_if_not(from, text.end(), is_part_of_name);
+    names.insert(text.substr(from - text.begin(), to - from));
+    from = std::find_if(to, text.end(), is_part_of_name);
   }
-  return found;
+}
+
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find("//")); }
+
+/// The NAME of "#define NAME..."; empty for another line.
+std::string_view defined_name(std::string_view line) {
+  constexpr std::string_view head = "#define ";
+  if (line.substr(0, head.size()) != head) return {};
+  line.remove_prefix(head.size());
+  return line.substr(0, std::find_if_not(line.begin(), line.end(), is_part_of_name) - line.begin());
+}
+
+/// A line of the text, and whether it is of a file that holds nothing but definitions, each of one line.
+struct Line {
+  std::string_view text;
+  bool of_table = false;
+};
+
+/// What follows a #line directive up to the next, and an #endif of the file that included it.
+bool is_table(std::vector<Line>::const_iterator from, std::vector<Line>::const_iterator to) {
+  const auto fits = [](const Line& line) {
+    return line.text == "#endif" || (!defined_name(line.text).empty() && line.text.back() != '\\');
+  };
+  return from != to && std::all_of(from, to, fits);
+}
+
+std::vector<Line> lines_of(std::string_view text) {
+  std::vector<Line> lines;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find('\n', from), text.size());
+    lines.push_back({text.substr(from, to - from)});
+    from = to + 1;
+  }
+  for (auto from = lines.begin(); from != lines.end();) {
+    const auto next = std::find_if(from, lines.end(), [](const Line& line) { return line.text.substr(0, 6) == "#line "; });
+    if (is_table(from, next))
+      for (; from != next; ++from) from->of_table = true;
+    from = next == lines.end() ? next : next + 1;
+  }
+  return lines;
 }
 
 std::string first_lines(const std::string& text, int count) {
@@ -162,14 +205,45 @@ std::string resolve_includes(const SourceFiles& files, const std::string& main) 
   return resolver.text();
 }
 
+std::string definitions_that_matter(const std::string& resolved) {
+  const std::vector<Line> lines = lines_of(resolved);
+  Names names;
+  for (const Line& line : lines) {
+    std::string_view text = without_comment(line.text);
+    if (line.of_table && !defined_name(text).empty()) {
+      const std::string_view name = defined_name(text);
+      text.remove_prefix(name.data() + name.size() - text.data());
+    }
+    add_names(text, names);
+  }
+  std::vector<std::string_view> beginnings;  // which ## makes names with
+  for (const std::string_view name : names)
+    if (name.back() == '_') beginnings.push_back(name);
+  const auto matters = [&](std::string_view name) {
+    return names.count(name) != 0 || std::any_of(beginnings.begin(), beginnings.end(), [name](std::string_view beginning) {
+             return name.substr(0, beginning.size()) == beginning;
+           });
+  };
+  std::string text;
+  text.reserve(resolved.size());
+  for (const Line& line : lines) {
+    const std::string_view name = line.of_table ? defined_name(line.text) : std::string_view();
+    if (!name.empty() && !matters(name)) continue;
+    text += name.empty() ? line.text : without_comment(line.text);
+    text += '\n';
+  }
+  return text;
+}
+
 std::string options_that_matter(const std::string& options, const std::string& resolved) {
   if (options.find_first_of("\"'\\") != std::string::npos) return options;  // a value with blanks in it
-  const std::set<std::string> names = identifiers(resolved);
+  Names names;
+  for (const Line& line : lines_of(resolved)) add_names(without_comment(line.text), names);
   std::istringstream words(options);
   std::string word, kept;
   while (words >> word) {
     const bool defines = starts_with(word, "-D") && word.size() > 2;
-    if (defines && names.count(word.substr(2, word.find('=') - 2)) == 0) continue;
+    if (defines && names.count(std::string_view(word).substr(2, word.find('=') - 2)) == 0) continue;
     kept += (kept.empty() ? "" : " ") + word;
   }
   return kept;

@@ -11,6 +11,11 @@ namespace wavetank::compute {
 /// compiler's messages in terms of the files' own names and lines. Throws Error for a name that is not among the files.
 std::string resolve_includes(const SourceFiles& files, const std::string& main);
 
+/// The resolved text without what files that hold nothing but definitions of one line each, such as tables, define for others: names that
+/// the text does not hold elsewhere, nor a beginning of them that ends in _, with which ## may make them; and without those files'
+/// comments. A program that knows nothing of a row is then the same with it and without, and a driver compiles it once.
+std::string definitions_that_matter(const std::string& resolved);
+
 /// The build options without definitions ("-DNAME=VALUE") of names that the resolved text does not hold: they change nothing, but a driver
 /// that keeps what it compiled would compile it anew for each value.
 std::string options_that_matter(const std::string& options, const std::string& resolved);

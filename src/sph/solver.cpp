@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
@@ -25,6 +26,8 @@ void check_size(const SolverRows& rows, const compute::DeviceInfo& device, std::
 }  // namespace
 
 SolverRows rows_for(const Case& settled_case, SolverRows rows) {
+  std::vector<ParameterRow> numbers = parameters_of_every_method(settled_case);
+  std::set<std::string> brought;
   for (const Method& method : rows.methods(settled_case)) {
     for (const FieldRow& field : method.fields) {
       const auto same = std::find_if(rows.fields.begin(), rows.fields.end(), [&](const FieldRow& other) {
@@ -36,8 +39,15 @@ SolverRows rows_for(const Case& settled_case, SolverRows rows) {
         *same = field;
     }
     rows.reports.insert(rows.reports.end(), method.reports.begin(), method.reports.end());
-    rows.parameters.insert(rows.parameters.end(), method.parameters.begin(), method.parameters.end());
+    for (const ParameterRow& row : method.parameters) {
+      const auto same = std::find_if(numbers.begin(), numbers.end(), [&](const ParameterRow& other) { return other.name == row.name; });
+      if (brought.insert(row.name).second && same != numbers.end())
+        *same = row;
+      else
+        numbers.push_back(row);
+    }
   }
+  rows.parameters.insert(rows.parameters.end(), numbers.begin(), numbers.end());
   return rows;
 }
 

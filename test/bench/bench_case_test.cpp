@@ -10,7 +10,7 @@
 #include "wavetank/geometry/layout.h"
 #include "wavetank/scene/case_reader.h"
 
-namespace wavetank::bench {
+namespace wavetank::bench::bench_case_test {
 namespace {
 
 std::vector<std::string> names_of(const std::vector<BenchCase>& cases) {
@@ -94,4 +94,4 @@ TEST(BenchCases, HaveSmallTwinsOfTheSameKernels) {
   }
 }
 
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::bench_case_test

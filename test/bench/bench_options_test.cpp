@@ -5,7 +5,7 @@
 #include "../common/error_of.h"
 #include "../common/scratch_directory.h"
 
-namespace wavetank::bench {
+namespace wavetank::bench::bench_options_test {
 namespace {
 
 BenchOptions read(std::vector<std::string> arguments) {
@@ -49,4 +49,4 @@ TEST(BenchOptions, RefuseWhatMakesNoSense) {
     EXPECT_THROW(read(arguments), Error) << arguments[0];
 }
 
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::bench_options_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wavetank::bench {
+namespace wavetank::bench::bench_run_test {
 namespace {
 
 Report run_on(const compute::DeviceInfo& device, const std::vector<std::string>& names, bool stopped) {
@@ -34,4 +34,4 @@ TEST(BenchRun, EndsWhenItIsStopped) {
 }
 
 }  // namespace
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::bench_run_test

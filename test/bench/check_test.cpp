@@ -10,7 +10,7 @@
 #include "../../src/bench/check/check_options.h"
 #include "../common/error_of.h"
 
-namespace wavetank::bench {
+namespace wavetank::bench::check_test {
 namespace {
 
 CheckPart part_of(const std::string& name, const std::vector<Check>& checks) {
@@ -120,4 +120,4 @@ TEST(CheckOptions, ReadEverythingAndRefuseWhatMakesNoSense) {
     EXPECT_THROW(read(arguments), Error) << arguments[0];
 }
 
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::check_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wavetank::bench {
+namespace wavetank::bench::own_command_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -26,4 +26,4 @@ TEST(OwnCommand, TakesALoaderAlong) {
             (Words{"/opt/lib/ld.so", "--library-path", "lib", "bin/wavetank_bench"}));
 }
 
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::own_command_test

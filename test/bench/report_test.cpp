@@ -8,7 +8,7 @@
 #include "../../src/bench/json.h"
 #include "../../src/bench/text_table.h"
 
-namespace wavetank::bench {
+namespace wavetank::bench::report_test {
 namespace {
 
 constexpr std::size_t particles = 1000;
@@ -141,4 +141,4 @@ TEST(StartUp, ComesBackFromItsLine) {
 }
 
 }  // namespace
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::report_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace wavetank::bench {
+namespace wavetank::bench::series_test {
 
 TEST(Series, HasTheMiddleOne) {
   EXPECT_EQ((Series{{3, 1, 2}}.median()), 2);
@@ -24,4 +24,4 @@ TEST(Series, OfNothingIsNoNumber) {
   EXPECT_TRUE(std::isnan(Series{}.spread_percent()));
 }
 
-}  // namespace wavetank::bench
+}  // namespace wavetank::bench::series_test

@@ -15,7 +15,7 @@
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/error.h"
 
-namespace wavetank {
+namespace wavetank::child_process_test {
 namespace {
 
 using End = ChildResult::End;
@@ -148,4 +148,4 @@ TEST(ChildProcess, CostsMilliseconds) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::child_process_test

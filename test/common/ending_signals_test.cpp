@@ -7,7 +7,7 @@
 #include <chrono>
 #include <future>
 
-namespace wavetank {
+namespace wavetank::ending_signals_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -86,4 +86,4 @@ TEST(EndingSignals, LeaveAHangupThatIsIgnored) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::ending_signals_test

@@ -6,7 +6,7 @@
 
 #include "error_of.h"
 
-namespace wavetank {
+namespace wavetank::expression_test {
 namespace {
 
 TEST(Expression, IsAFunctionOfAPlace) {
@@ -36,4 +36,4 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
 TEST(Expression, IsNotFiniteWhereItsValueIsNot) { EXPECT_FALSE(std::isfinite(Expression("1/x").at({0, 0, 0}))); }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::expression_test

@@ -5,7 +5,7 @@
 
 #include "wavetank/common/log.h"
 
-namespace wavetank {
+namespace wavetank::visible_text_test {
 namespace {
 
 TEST(VisibleText, ShowsWhatATerminalWouldObey) {
@@ -42,4 +42,4 @@ TEST(VisibleText, IsWhatTheLogSays) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::visible_text_test

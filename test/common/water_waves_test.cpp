@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace wavetank {
+namespace wavetank::water_waves_test {
 namespace {
 
 constexpr double depth = 0.4, gravity = 9.81, step = 1e-5;
@@ -108,4 +108,4 @@ TEST(WaveFields, StandingOnesRestWhenTheyAreHighest) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::water_waves_test

@@ -16,7 +16,7 @@
 #include "error_of.h"
 #include "scratch_directory.h"
 
-namespace wavetank {
+namespace wavetank::whole_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST(WholeFile, FindsAFreeName) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::whole_file_test

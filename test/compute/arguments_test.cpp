@@ -3,7 +3,7 @@
 
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::arguments_test {
 namespace {
 
 const char* const source =
@@ -82,4 +82,4 @@ TEST_F(ArgumentsTest, ABuildAtFirstUseTellsThenWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::arguments_test

@@ -6,7 +6,7 @@
 
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::buffer_test {
 namespace {
 
 class BufferTest : public ::testing::Test {
@@ -116,4 +116,4 @@ TEST_F(BufferTest, RefusesMoreThanTheDeviceAllows) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::buffer_test

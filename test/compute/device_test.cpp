@@ -3,7 +3,7 @@
 #include "../../src/compute/opencl_call.h"
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::device_test {
 namespace {
 
 TEST(Devices, AreListedWithWhatTheyCanDo) {
@@ -110,4 +110,4 @@ TEST(Check, NamesALostDeviceAndWhatItRan) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::device_test

@@ -1,6 +1,6 @@
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::no_device_test {
 namespace {
 
 // In a process of its own, since the loader reads this variable once a process.
@@ -18,4 +18,4 @@ TEST(ChooseDeviceOfNone, SaysWhenThereIsNone) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::no_device_test

@@ -6,7 +6,7 @@
 
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::program_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ TEST(CacheDirectory, FollowsTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::program_cache_test

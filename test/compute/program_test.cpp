@@ -4,7 +4,7 @@
 
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::program_test {
 namespace {
 
 class ProgramTest : public ::testing::Test {
@@ -139,4 +139,4 @@ TEST_F(ProgramTest, TimesNothingUnlessAsked) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::program_test

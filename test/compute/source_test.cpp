@@ -2,7 +2,7 @@
 
 #include "compute_fixture.h"
 
-namespace wavetank::compute {
+namespace wavetank::compute::source_test {
 namespace {
 
 int count_of(const std::string& text, const std::string& part) {
@@ -67,6 +67,20 @@ TEST(OptionsThatMatter, AreThoseWhoseNamesTheSourceHolds) {
   EXPECT_EQ(options_that_matter("-DFAR=\"a b\"", source), "-DFAR=\"a b\"") << "quotes are left alone";
 }
 
+TEST(DefinitionsThatMatter, AreThoseWhoseNamesTheSourceHolds) {
+  const SourceFiles files{
+      {"main.cl", "#include \"table.cl\"\n#define OWN 1\nint a[COUNT] = {FIELD_X};\n#define OF(NAME) RATE_##NAME\n// SALT\n"},
+      {"table.cl",
+       "#define FIELD_X 0  // place, m\n#define FIELD_Y 1\n#define COUNT (LENGTH + 1)\n#define LENGTH 2\n#define RATE_U 3\n"
+       "#define SALT 4\n"}};
+  const std::string text = definitions_that_matter(resolve_includes(files, "main.cl"));
+  EXPECT_TRUE(contains(text, "#define FIELD_X 0  \n#define COUNT (LENGTH + 1)\n#define LENGTH 2\n#define RATE_U 3\n#endif\n")) << text;
+  EXPECT_TRUE(contains(text, "#define OWN 1\n")) << "only of tables\n" << text;
+  SourceFiles others = files;
+  others["table.cl"] = "#define FIELD_W 7\n" + files.at("table.cl") + "#define HEAT 5  // of it\n";
+  EXPECT_EQ(definitions_that_matter(resolve_includes(others, "main.cl")), text);
+}
+
 TEST(ExplainBuildLog, QuotesTheFirstErrorsOnly) {
   const SourceFiles files{{"sweep.cl", "one\n  two = three;\n"}};
   std::string log;
@@ -87,4 +101,4 @@ TEST(ExplainBuildLog, GivesAnUnknownFormAsItIs) {
 }
 
 }  // namespace
-}  // namespace wavetank::compute
+}  // namespace wavetank::compute::source_test

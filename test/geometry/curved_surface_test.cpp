@@ -6,7 +6,7 @@
 #include "../../src/geometry/fluid_filling.h"
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::curved_surface_test {
 namespace {
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -140,4 +140,4 @@ TEST(CurvedSurface, MustBeInTheTankAndFinite) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::curved_surface_test

@@ -5,7 +5,7 @@
 
 #include "wavetank/geometry/layout.h"
 
-namespace wavetank {
+namespace wavetank::joined_rectangles_test {
 namespace {
 
 constexpr double spacing = 0.1;
@@ -72,4 +72,4 @@ TEST(JoinedRectangles, JoinSegmentsIn2D) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::joined_rectangles_test

@@ -1,6 +1,6 @@
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::layout_2d_test {
 namespace {
 
 class Layout2d : public GeometryTest {};
@@ -168,4 +168,4 @@ TEST_F(Layout2d, RefusesALeakAndAProbeInABody) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::layout_2d_test

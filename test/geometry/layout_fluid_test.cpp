@@ -4,7 +4,7 @@
 #include "wavetank/common/log.h"
 #include "wavetank/scene/case_reader.h"
 
-namespace wavetank {
+namespace wavetank::layout_fluid_test {
 namespace {
 
 /// The lines that are logged while it lives.
@@ -486,4 +486,4 @@ TEST_F(LayoutFluid, Spheric2) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::layout_fluid_test

@@ -3,7 +3,7 @@
 
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::layout_links_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -149,4 +149,4 @@ TEST(LayoutLinks, WhollyInsideHaveNoWallsAndTheHullKeepsItsOwn) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::layout_links_test

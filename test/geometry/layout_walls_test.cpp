@@ -5,7 +5,7 @@
 #include "geometry_fixture.h"
 #include "wavetank/geometry/thin_walls.h"
 
-namespace wavetank {
+namespace wavetank::layout_walls_test {
 namespace {
 
 class LayoutWalls : public GeometryTest {
@@ -387,4 +387,4 @@ TEST_F(LayoutWalls, AKilometreAwayNothingChanges) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::layout_walls_test

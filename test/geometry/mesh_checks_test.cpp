@@ -2,7 +2,7 @@
 
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::mesh_checks_test {
 namespace {
 
 const Box unit_cube{Vector3d::Zero(), Vector3d::Ones()};
@@ -268,4 +268,4 @@ TEST(Distance, ToFaceEdgeAndCorner) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::mesh_checks_test

@@ -6,7 +6,7 @@
 
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::mesh_reader_test {
 namespace {
 
 const Box unit_cube{Vector3d::Zero(), Vector3d::Ones()};
@@ -422,4 +422,4 @@ TEST_F(MeshReader, CommittedMeshesAreTheScripts) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::mesh_reader_test

@@ -2,7 +2,7 @@
 #include "geometry_fixture.h"
 #include "wavetank/common/log.h"
 
-namespace wavetank {
+namespace wavetank::mesh_scale_test {
 namespace {
 
 class MeshScaleTest : public GeometryTest {
@@ -116,4 +116,4 @@ TEST_F(MeshScaleTest, ASpacingLargerThanTheTankIsRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::mesh_scale_test

@@ -3,7 +3,7 @@
 
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::openings_test {
 namespace {
 
 OpeningCase hole(const Vector3d& centre, const Vector3d& normal, double width, double height) {
@@ -357,4 +357,4 @@ TEST_F(PartsTest, ThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::openings_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace wavetank {
+namespace wavetank::polygon_test {
 namespace {
 
 void covers_it_once(const std::vector<Vector3d>& polygon) {
@@ -77,4 +77,4 @@ TEST(Triangulate, StarsOfAnyShape) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::polygon_test

@@ -3,7 +3,7 @@
 
 #include "geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::shape_mesh_test {
 namespace {
 
 // The meshes are made in double precision and scaled by one factor: a few hundred roundings of 1e-16.
@@ -154,4 +154,4 @@ TEST(ShapeMesh, RefusesAPlacementWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::shape_mesh_test

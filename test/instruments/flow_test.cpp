@@ -5,7 +5,7 @@
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
-namespace wavetank {
+namespace wavetank::flow_test {
 namespace {
 
 /// Of a fluid that has been given its state, at that instant.
@@ -148,4 +148,4 @@ TEST(Section, WhereNoWaterCanComeIsRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::flow_test

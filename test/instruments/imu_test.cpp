@@ -2,7 +2,7 @@
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
-namespace wavetank {
+namespace wavetank::imu_test {
 namespace {
 
 /// A hull that the water does not matter to.
@@ -79,4 +79,4 @@ TEST(Imu, OnAPitchingHullReadsItsPlacesAccelerationInItsAxes) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::imu_test

@@ -2,7 +2,7 @@
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
-namespace wavetank {
+namespace wavetank::sample_clock_test {
 namespace {
 
 TEST(SampleClock, TicksAtMultiplesOfItsPeriodWithoutDrift) {
@@ -157,4 +157,4 @@ TEST_F(Sampling, ContinuesFromStoredIndices) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::sample_clock_test

@@ -5,7 +5,7 @@
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
-namespace wavetank {
+namespace wavetank::still_water_test {
 namespace {
 
 constexpr double gravity = 9.81;
@@ -302,4 +302,4 @@ TEST(Energies, OfWaterAtRest) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::still_water_test

@@ -5,7 +5,7 @@
 #include "../sph/sph_fixture.h"
 #include "wavetank/instruments/recorder.h"
 
-namespace wavetank {
+namespace wavetank::upper_surface_test {
 namespace {
 
 constexpr double spacing = 0.02;
@@ -126,4 +126,4 @@ TEST(UpperSurface, OfAFilmOnTheFloorIsItsThickness) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::upper_surface_test

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace wavetank {
+namespace wavetank::background_work_test {
 
 TEST(BackgroundWork, IsDoneInOrder) {
   std::vector<int> done, expected;
@@ -88,4 +88,4 @@ TEST(BackgroundWork, TellsOfAFailureWithoutMoreWork) {
   EXPECT_NO_THROW(work.finish());
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::background_work_test

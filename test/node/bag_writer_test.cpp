@@ -10,7 +10,7 @@
 #include "../common/error_of.h"
 #include "../common/scratch_directory.h"
 
-namespace wavetank {
+namespace wavetank::bag_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -100,4 +100,4 @@ TEST_F(BagWriterTest, RefusesPlacesWhereNoBagCanBe) {
   EXPECT_THROW(BagWriter("/proc/a.bag", "/wavetank"), Error);
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::bag_writer_test

@@ -8,7 +8,7 @@
 #include "example_case.h"
 #include "wavetank/common/error.h"
 
-namespace wavetank {
+namespace wavetank::body_inbox_test {
 
 using test::example_frames;
 using test::moving_box_case;
@@ -155,4 +155,4 @@ TEST(Inbox, LosesNoLastMessageBetweenThreads) {
   sender.join();
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::body_inbox_test

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <set>
 
-namespace wavetank {
+namespace wavetank::clouds_test {
 
 namespace {
 
@@ -109,4 +109,4 @@ TEST(CloudMessage, OfNothingIsEmpty) {
   EXPECT_TRUE(message.data.empty());
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::clouds_test

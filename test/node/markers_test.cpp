@@ -7,7 +7,7 @@
 
 #include "example_case.h"
 
-namespace wavetank {
+namespace wavetank::markers_test {
 
 using test::example_case;
 using test::example_frames;
@@ -201,4 +201,4 @@ TEST(FeatureEdges, OfABoxAreItsTwelveEdges) { EXPECT_EQ(feature_edges(box_mesh({
 
 TEST(FeatureEdges, OfAnOpenBoxHaveItsRim) { EXPECT_EQ(feature_edges(box_mesh({{0, 0, 0}, {1, 2, 3}}, true, "box"), 0.5).size(), 24U); }
 
-}  // namespace wavetank
+}  // namespace wavetank::markers_test

@@ -9,7 +9,7 @@
 #include "example_case.h"
 #include "wavetank/scene/case_reader.h"
 
-namespace wavetank {
+namespace wavetank::messages_test {
 
 using test::example_case;
 using test::example_frames;
@@ -316,4 +316,4 @@ TEST(StatusMessage, CarriesStateEnergiesAndRun) {
   EXPECT_EQ(status.duration, 2.0);
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::messages_test

@@ -6,7 +6,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/node/resources.h"
 
-namespace wavetank {
+namespace wavetank::parameters_test {
 
 using XmlRpc::XmlRpcValue;
 
@@ -59,4 +59,4 @@ TEST(ResolveResource, SaysWhatIsWrongWithAnAddress) {
   }
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::parameters_test

@@ -7,7 +7,7 @@
 #include "example_case.h"
 #include "wavetank/node/messages.h"
 
-namespace wavetank {
+namespace wavetank::pose_messages_test {
 
 using test::example_case;
 using test::example_frames;
@@ -166,4 +166,4 @@ TEST(Frames, AMovingTanksParentIsTheWorldOrElseTheInertialFrame) {
   EXPECT_EQ(example_frames(example)[1].parent, "world");
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::pose_messages_test

@@ -6,7 +6,7 @@
 #include "wavetank/node/progress.h"
 #include "wavetank/surface/surface_finder.h"
 
-namespace wavetank {
+namespace wavetank::run_options_test {
 
 namespace {
 
@@ -76,4 +76,4 @@ TEST(DurationText, SuitsTheLength) {
   EXPECT_EQ(duration_text(7500), "2 h 05 min");
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::run_options_test

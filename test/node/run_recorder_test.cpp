@@ -9,7 +9,7 @@
 #include "../common/scratch_directory.h"
 #include "wavetank/common/standard_output.h"
 
-namespace wavetank {
+namespace wavetank::run_recorder_test {
 namespace {
 
 /// No file of this process may grow beyond that many bytes.
@@ -75,4 +75,4 @@ TEST(RunRecorder, TellsOfALastSurfaceThatHasNoRoom) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::run_recorder_test

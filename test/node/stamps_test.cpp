@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wavetank {
+namespace wavetank::stamps_test {
 
 TEST(StampClock, GivesSimulatedTimeToTheNanosecond) {
   const StampClock clock;
@@ -38,4 +38,4 @@ TEST(Nonzero, ReplacesOnlyZero) {
   EXPECT_EQ(nonzero(ros::Time(0, 5)), ros::Time(0, 5));
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::stamps_test

@@ -11,7 +11,7 @@
 #include "wavetank/node/stamps.h"
 #include "wavetank/node/surface_messages.h"
 
-namespace wavetank {
+namespace wavetank::surface_drawer_test {
 namespace {
 
 Case small_tank() {
@@ -50,4 +50,4 @@ TEST(SurfaceDrawer, ASurfaceHasTheStampThatItWasBegunWith) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::surface_drawer_test

@@ -10,7 +10,7 @@
 
 #include "wavetank/common/error.h"
 
-namespace wavetank {
+namespace wavetank::vtk_file_test {
 namespace {
 
 VtkPolygons two_triangles() {
@@ -104,4 +104,4 @@ TEST(VtkFile, CollectionsListTimesAndNames) {
             std::string::npos);
 }
 
-}  // namespace wavetank
+}  // namespace wavetank::vtk_file_test

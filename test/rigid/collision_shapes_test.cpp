@@ -2,7 +2,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::collision_shapes_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -138,4 +138,4 @@ TEST(CollisionShapes, AFinelyCutRingKeepsItsHole) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::collision_shapes_test

@@ -6,7 +6,7 @@
 
 #include "../common/error_of.h"
 
-namespace wavetank {
+namespace wavetank::commanded_motion_test {
 namespace {
 
 const Vector3d start(1, -2, 0.5);
@@ -228,4 +228,4 @@ TEST(CommandedMotion, GoesOnBitForBitAfterItWasSaved) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::commanded_motion_test

@@ -3,7 +3,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::contacts_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -204,4 +204,4 @@ TEST(Contacts, InTwoDimensionsEverythingStaysInThePlane) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::contacts_test

@@ -8,7 +8,7 @@
 #include "../../src/rigid/collision_shapes.h"
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::convex_hull_test {
 namespace {
 
 /// A cylinder of diameter and height 1 m about the origin, of 64 sides, in 5 rings.
@@ -113,4 +113,4 @@ TEST(ConvexHull, OfVeryManyCornersIsThinnedAndItSaysSo) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::convex_hull_test

@@ -3,7 +3,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::draught_test {
 namespace {
 
 TEST(Draught, OfABox) {
@@ -94,4 +94,4 @@ TEST(Draught, OfARingWhoseHoleFillsFromBelow) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::draught_test

@@ -4,7 +4,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::hollow_bodies_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -156,4 +156,4 @@ TEST_F(HollowBody, WhatDoesNotFallIntoPartsThatHoldTheSameIsRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::hollow_bodies_test

@@ -2,7 +2,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::joints_test {
 namespace {
 
 /// A large tank without contacts, so that a joint alone holds a body.
@@ -564,4 +564,4 @@ TEST(Joints, SaysWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::joints_test

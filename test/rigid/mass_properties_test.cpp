@@ -7,7 +7,7 @@
 
 #include "../geometry/geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::mass_properties_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -392,4 +392,4 @@ TEST(MassProperties, OfASurfaceThatEnclosesNothingMustAllBeGiven) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::mass_properties_test

@@ -3,7 +3,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::mesh_tank_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -86,4 +86,4 @@ TEST_F(MeshTank, ABoxOnABumpyFloorStaysOnIt) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::mesh_tank_test

@@ -5,7 +5,7 @@
 #include "../../src/rigid/wind.h"
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::moorings_test {
 namespace {
 
 // ---- catenary
@@ -341,4 +341,4 @@ TEST(Wind, GustsHaveTheirIntensityAndTimeScaleAndRepeatThemselves) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::moorings_test

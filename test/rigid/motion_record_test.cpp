@@ -5,7 +5,7 @@
 #include "../geometry/geometry_fixture.h"
 #include "wavetank/rigid/prescribed_motion.h"
 
-namespace wavetank {
+namespace wavetank::motion_record_test {
 namespace {
 
 class MotionRecordTest : public GeometryTest {
@@ -243,4 +243,4 @@ TEST_F(MotionRecordTest, RefusesColumnsWithoutADirectionAndTheOtherWayRound) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::motion_record_test

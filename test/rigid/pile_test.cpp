@@ -5,7 +5,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::pile_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -90,4 +90,4 @@ TEST_F(Pile, GoesOnFromSavedBytesBitForBit) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::pile_test

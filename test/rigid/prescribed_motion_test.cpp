@@ -6,7 +6,7 @@
 
 #include "../geometry/geometry_fixture.h"
 
-namespace wavetank {
+namespace wavetank::prescribed_motion_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -231,4 +231,4 @@ TEST(PrescribedMotion, RefusesNumbersThatMakeNoMotion) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::prescribed_motion_test

@@ -1,6 +1,6 @@
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::rigid_world_test {
 namespace {
 
 const Vector3d room(4, 4, 4);
@@ -386,4 +386,4 @@ TEST(RigidWorld, AFreeTankCarriesWhatIsFixedToIt) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::rigid_world_test

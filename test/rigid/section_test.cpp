@@ -5,7 +5,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::section_test {
 namespace {
 
 constexpr int slices = 1000;
@@ -86,4 +86,4 @@ TEST(Section, OfListedPartsIsComparedToo) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::section_test

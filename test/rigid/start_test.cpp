@@ -1,7 +1,7 @@
 // What a world says of bodies that start where they cannot be.
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::start_test {
 namespace {
 
 constexpr double spacing = 0.05;
@@ -103,4 +103,4 @@ TEST(Start, OverAFloorThatWaterCannotReachIsTold) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::start_test

@@ -5,7 +5,7 @@
 
 #include "rigid_fixture.h"
 
-namespace wavetank {
+namespace wavetank::wave_absorption_test {
 namespace {
 
 constexpr double depth = 0.4, usual_gauge = 0.2, time_step = 2e-3;
@@ -176,4 +176,4 @@ TEST(Absorption, NeedsARecallThatItsFilterCanStand) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::wave_absorption_test

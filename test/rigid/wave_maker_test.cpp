@@ -6,7 +6,7 @@
 #include "rigid_fixture.h"
 #include "wavetank/rigid/wave_theory.h"
 
-namespace wavetank {
+namespace wavetank::wave_maker_test {
 namespace {
 
 constexpr double depth = 0.4;
@@ -251,4 +251,4 @@ TEST(WaveFacts, TellWhatComes) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::wave_maker_test

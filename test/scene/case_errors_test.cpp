@@ -5,7 +5,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/scene/case_reader.h"
 
-using namespace wavetank;
+namespace wavetank::case_errors_test {
 
 namespace {
 
@@ -383,3 +383,5 @@ TEST(BrokenOverrides, NameTheOption) {
   EXPECT_TRUE(contains(error_of(replaced(sound, "walls: {slip: no_slip}", "walls: 3"), {{"numerics/walls/slip", "no_slip"}}),
                        "--set numerics/walls/slip: numerics/walls is 3 (case.yaml:16), which is not a map of keys"));
 }
+
+}  // namespace wavetank::case_errors_test

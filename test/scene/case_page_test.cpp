@@ -6,7 +6,7 @@
 
 #include "wavetank/scene/case_reader.h"
 
-using namespace wavetank;
+namespace wavetank::case_page_test {
 
 // With WAVETANK_WRITE_DOCS set in the environment, this writes the page instead of comparing it.
 TEST(CasePage, IsWhatTheKeysSay) {
@@ -30,3 +30,5 @@ TEST(CasePage, DefaultsAreThoseOfTheStructs) {
   EXPECT_NE(page.find("| `numerics/density_diffusion` | word |  | none, fourtakas, antuono | `fourtakas` |"), std::string::npos);
   EXPECT_NE(page.find("| `instruments/pressure_probes/N/position` |"), std::string::npos);
 }
+
+}  // namespace wavetank::case_page_test

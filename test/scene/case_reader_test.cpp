@@ -9,7 +9,7 @@
 #include "../common/scratch_directory.h"
 #include "wavetank/common/error.h"
 
-using namespace wavetank;
+namespace wavetank::case_reader_test {
 
 namespace {
 
@@ -345,3 +345,5 @@ TEST(CaseReader, ReadsInitialFieldsAndWritesThemBack) {
   EXPECT_EQ(again.fluid.initial.pressure, "1000*9.81*(1 - z)");
   EXPECT_EQ(again.numerics.tensile, Tensile::plain);
 }
+
+}  // namespace wavetank::case_reader_test

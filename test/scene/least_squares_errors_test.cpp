@@ -1,7 +1,7 @@
 // What moving least squares are not built for, and where water would not rest with them, is refused when the case is read.
 #include "broken_case.h"
 
-using namespace wavetank;
+namespace wavetank::least_squares_errors_test {
 
 namespace {
 
@@ -103,3 +103,5 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
+
+}  // namespace wavetank::least_squares_errors_test

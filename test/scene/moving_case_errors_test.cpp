@@ -2,7 +2,7 @@
 
 #include "broken_case.h"
 
-using namespace wavetank;
+namespace wavetank::moving_case_errors_test {
 
 namespace {
 
@@ -379,3 +379,5 @@ TEST(BrokenMovingCases, ByOverride) {
   EXPECT_EQ(error_of(sound, {{"joints/0/stiffnes", "1", "parameter ~"}}),
             "parameter ~joints/0/stiffnes: joints/0/stiffnes is not a known key; did you mean joints/0/stiffness?");
 }
+
+}  // namespace wavetank::moving_case_errors_test

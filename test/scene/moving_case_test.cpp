@@ -5,7 +5,7 @@
 #include "../common/scratch_directory.h"
 #include "wavetank/scene/case_reader.h"
 
-using namespace wavetank;
+namespace wavetank::moving_case_test {
 
 namespace {
 
@@ -349,3 +349,5 @@ TEST(MovingCase, OverridesReachEveryKey) {
   EXPECT_FALSE(read.bodies[1].rigid.command.greatest_speed);
   expect_limits(read.joints[1].limits, -pi / 6, pi / 2);
 }
+
+}  // namespace wavetank::moving_case_test

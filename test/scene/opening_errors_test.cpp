@@ -1,7 +1,7 @@
 // Openings that a case cannot have.
 #include "broken_case.h"
 
-namespace wavetank {
+namespace wavetank::opening_errors_test {
 namespace {
 
 const char* const sound = R"(dimensions: 3
@@ -181,4 +181,4 @@ TEST(Openings, AreReadAndWritten) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::opening_errors_test

@@ -6,7 +6,7 @@
 #include "../common/scratch_directory.h"
 #include "broken_case.h"
 
-namespace wavetank {
+namespace wavetank::robot_test {
 namespace {
 
 // Angles go through sines and cosines, and inertias through two rotations: a few roundings of numbers of the order of 1.
@@ -439,4 +439,4 @@ TEST(Robot, NothingIsMadeOfNoShapes) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::robot_test

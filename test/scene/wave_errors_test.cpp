@@ -1,7 +1,7 @@
 // Waves by theory and damping zones that a case cannot have.
 #include "broken_case.h"
 
-namespace wavetank {
+namespace wavetank::wave_errors_test {
 namespace {
 
 const char* const sound = R"(dimensions: 2
@@ -235,4 +235,4 @@ TEST(Waves, AreReadAndWritten) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::wave_errors_test

@@ -4,7 +4,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::bodies_test {
 namespace {
 
 BodyCase free_box(const std::string& name, const Box& box, double density) {
@@ -517,4 +517,4 @@ TEST(Bodies, RefuseWhatCannotAct) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::bodies_test

@@ -5,7 +5,7 @@
 #include "wavetank/common/log.h"
 #include "wavetank/sph/discretisation.h"
 
-namespace wavetank {
+namespace wavetank::case_size_test {
 namespace {
 
 CaseSize size_of_case(const Case& scene) {
@@ -131,4 +131,4 @@ TEST(ShallowWater, IsNotThatOverAndUnderBodies) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::case_size_test

@@ -1,7 +1,7 @@
 // What tank and bodies at rest cannot give: the water's energies never add up to more than at the start.
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::energy_balance_test {
 namespace {
 
 /// The greatest sum of the three energies over the first, less the first, of the energy that the water can lose.
@@ -43,4 +43,4 @@ TEST(EnergyBalance, OfADamBreak) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::energy_balance_test

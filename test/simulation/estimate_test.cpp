@@ -3,7 +3,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::estimate_test {
 namespace {
 
 TEST(Estimate, AParticleTakesSomeTwoHundredBytes) {
@@ -63,4 +63,4 @@ TEST(Estimate, BesideARunOf200Steps) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::estimate_test

@@ -4,7 +4,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::facing_walls_test {
 namespace {
 
 constexpr double density = 1000, gravity = 9.81;
@@ -143,4 +143,4 @@ TEST(BoxesSideBySide, DoNotRepel) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::facing_walls_test

@@ -4,7 +4,7 @@
 #include "simulation_fixture.h"
 #include "wavetank/scene/case_reader.h"
 
-namespace wavetank {
+namespace wavetank::gravity_test {
 namespace {
 
 constexpr double depth = 0.4, density = 1000, strength = 9.81;
@@ -152,4 +152,4 @@ TEST(GaugePosition, FollowsGravity) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::gravity_test

@@ -4,7 +4,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::jump_test {
 namespace {
 
 constexpr double spacing = 0.02, sound_speed = 20, most = 0.2 * spacing * (1 + 1e-6);
@@ -166,4 +166,4 @@ TEST_F(Jump, ATanksSpeedIsBoundedWhereNoLimitEasesIt) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::jump_test

@@ -3,7 +3,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::links_test {
 namespace {
 
 constexpr double density = 1000, gravity = 9.81;
@@ -46,4 +46,4 @@ TEST_F(Links, InsideAHullFeelNothingAlsoOnAHinge) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::links_test

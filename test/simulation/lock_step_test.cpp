@@ -8,7 +8,7 @@
 
 #include "../common/error_of.h"
 
-namespace wavetank {
+namespace wavetank::lock_step_test {
 namespace {
 
 /// A simulation whose steps are all as long.
@@ -104,4 +104,4 @@ TEST(LockStep, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::lock_step_test

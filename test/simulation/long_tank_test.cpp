@@ -5,7 +5,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::long_tank_test {
 namespace {
 
 constexpr double spacing = 0.01, density = 1000, gravity = 9.81;
@@ -89,4 +89,4 @@ TEST(LongTank, IsAsStillFarAlongY) {
 TEST(LongTank, IsAsStillFarAlongZ) { is_as_still_far_away({2, 2, 0, 20 * spacing, 30 * spacing}); }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::long_tank_test

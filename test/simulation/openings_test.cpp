@@ -5,7 +5,7 @@
 #include "simulation_fixture.h"
 #include "wavetank/scene/methods.h"
 
-namespace wavetank {
+namespace wavetank::openings_test {
 namespace {
 
 constexpr double depth = 0.4, spacing = 0.04;
@@ -712,4 +712,4 @@ TEST_F(Openings, BetweenGhostsWaterLeavesByARoundHole) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::openings_test

@@ -2,7 +2,7 @@
 #include "../../src/simulation/snapshot.h"
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::repeat_test {
 namespace {
 
 using Repeat = SimulationTest;
@@ -154,4 +154,4 @@ TEST_F(Restore, AFailedSaveLeavesNothingAndNamesTheFile) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::repeat_test

@@ -3,7 +3,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::still_tank_test {
 namespace {
 
 /// √(Σ V (p − ρ g (H − z))² / Σ V) / ρ g H over the particles.
@@ -133,4 +133,4 @@ TEST(FarTank, HasTheSameProbes) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::still_tank_test

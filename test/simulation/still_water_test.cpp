@@ -6,7 +6,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::still_water_test {
 namespace {
 
 struct Water {
@@ -94,4 +94,4 @@ INSTANTIATE_TEST_SUITE_P(Walls, StillWater, ::testing::ValuesIn(waters),
                          [](const ::testing::TestParamInfo<Water>& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::still_water_test

@@ -4,7 +4,7 @@
 
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::thin_bodies_test {
 namespace {
 
 constexpr double density = 1000, gravity = 9.81;
@@ -170,4 +170,4 @@ TEST_F(ThinBodies, HeavyOnesComeToLieOnTheFloor) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::thin_bodies_test

@@ -6,7 +6,7 @@
 #include "simulation_fixture.h"
 #include "wavetank/common/log.h"
 
-namespace wavetank {
+namespace wavetank::watchdog_test {
 namespace {
 
 class Watchdog : public SimulationTest {
@@ -121,4 +121,4 @@ TEST_F(Watchdog, StopsACaseThatExplodes) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::watchdog_test

@@ -2,7 +2,7 @@
 #include "simulation_fixture.h"
 #include "wavetank/common/log.h"
 
-namespace wavetank {
+namespace wavetank::waves_test {
 namespace {
 
 constexpr double depth = 0.4;
@@ -272,4 +272,4 @@ TEST_F(Waves, ThatCannotBeAreTold) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::waves_test

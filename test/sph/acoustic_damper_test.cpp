@@ -4,7 +4,7 @@
 
 #include "periodic_square.h"
 
-namespace wavetank {
+namespace wavetank::acoustic_damper_test {
 namespace {
 
 constexpr double side = PeriodicSquare::side, sound_speed = PeriodicSquare::sound_speed, wave_number = 2 * M_PI / side;
@@ -132,4 +132,4 @@ TEST(AcousticDamper, LeavesVorticesAlone) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::acoustic_damper_test

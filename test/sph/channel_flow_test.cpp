@@ -9,7 +9,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::channel_flow_test {
 namespace {
 
 using namespace channel_flow;
@@ -199,4 +199,4 @@ TEST(ChannelFlow, NoSlipBrakesAStream) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::channel_flow_test

@@ -1,7 +1,7 @@
 // What the water's energies count.
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::energies_test {
 namespace {
 
 /// Particles without walls whose compression is set.
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, CompressionEnergy,
                          [](const ::testing::TestParamInfo<Kind>& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::energies_test

@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::free_surface_test {
 namespace {
 
 /// By id, of water that has not moved.
@@ -121,4 +121,4 @@ TEST(FreeSurface, IsFoundAlongWaves) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::free_surface_test

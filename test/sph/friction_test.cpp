@@ -5,7 +5,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::friction_test {
 namespace {
 
 constexpr double length = 1, depth = 0.6, spacing = 0.03, friction_velocity = 0.05;
@@ -230,4 +230,4 @@ TEST(Eddies, BetweenGhostsDoNotEndAtPeriodicEnds) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::friction_test

@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::guard_test {
 namespace {
 
 constexpr double sound_speed = 10;
@@ -435,4 +435,4 @@ TEST_P(Guard, RandomShotsStayInFrontOfWalls) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::guard_test

@@ -7,7 +7,7 @@
 
 #include "../common/box_case.h"
 
-namespace wavetank {
+namespace wavetank::hidden_walls_test {
 namespace {
 
 constexpr double spacing = 0.04;
@@ -112,4 +112,4 @@ TEST(HiddenWalls, WhatOnlyTouchesOrKeepsApartStaysWhole) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::hidden_walls_test

@@ -2,7 +2,7 @@
 #include "../common/error_of.h"
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::initial_fields_test {
 namespace {
 
 Case vortices() {
@@ -47,4 +47,4 @@ TEST(InitialFields, ThatAreNotFiniteAreRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::initial_fields_test

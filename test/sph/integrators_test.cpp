@@ -3,7 +3,7 @@
 
 #include "periodic_square.h"
 
-namespace wavetank {
+namespace wavetank::integrators_test {
 namespace {
 
 struct Expected {
@@ -145,4 +145,4 @@ TEST(Integrators, RestartToTheSameBits) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::integrators_test

@@ -13,7 +13,7 @@
 #include "wavetank/compute/program.h"
 #include "wavetank/sph/kernel_sources.h"
 
-namespace wavetank {
+namespace wavetank::least_squares_fit_test {
 namespace {
 
 /// The fit of the first particles of a cloud to fields that all of its particles have.
@@ -340,4 +340,4 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, LeastSquares, ::testing::Values(2, 3),
                          [](const auto& info) { return std::to_string(info.param) + "D"; });
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::least_squares_fit_test

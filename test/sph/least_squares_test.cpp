@@ -4,7 +4,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::least_squares_test {
 namespace {
 
 struct Variant {
@@ -277,4 +277,4 @@ INSTANTIATE_TEST_SUITE_P(
     form_name);
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::least_squares_test

@@ -6,7 +6,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::moving_walls_test {
 namespace {
 
 struct Kind {
@@ -285,4 +285,4 @@ TEST(MovingWalls, ATankThatMovesCarriesItsFrameWithIt) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::moving_walls_test

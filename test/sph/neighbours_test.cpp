@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::neighbours_test {
 namespace {
 
 constexpr unsigned seed = 20251;
@@ -140,4 +140,4 @@ TEST(Kernel, FillsAPackedLattice) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::neighbours_test

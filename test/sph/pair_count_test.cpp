@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::pair_count_test {
 namespace {
 
 constexpr unsigned seed = 4711;
@@ -57,4 +57,4 @@ TEST(PairCount, IsThatOfAllPairsIn3D) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::pair_count_test

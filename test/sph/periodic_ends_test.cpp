@@ -1,7 +1,7 @@
 // A particle that leaves a long periodic tank at one end comes in at the other exactly a period away.
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::periodic_ends_test {
 namespace {
 
 void crosses_the_end(double start, double speed) {
@@ -35,4 +35,4 @@ TEST(PeriodicEnds, AreCrossedExactlyInALongTank) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::periodic_ends_test

@@ -4,7 +4,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::population_test {
 namespace {
 
 constexpr double spacing = 0.02;
@@ -263,4 +263,4 @@ TEST(PopulationOfATank, RefusesParticlesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::population_test

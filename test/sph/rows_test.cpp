@@ -4,7 +4,7 @@
 #include "../common/error_of.h"
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::rows_test {
 namespace {
 
 const FieldRow salt{ParticleArray::state, {"salt"}, "", "of a particle", true};
@@ -190,4 +190,4 @@ TEST(SchemeRow, IsItsDeviceCodeAndWhatItBrings) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::rows_test

@@ -8,7 +8,7 @@
 #include "wavetank/common/error.h"
 #include "wavetank/sph/schedule_page.h"
 
-namespace wavetank {
+namespace wavetank::schedule_test {
 namespace {
 
 /// Two stages about a sort, which takes the position along and nothing else.
@@ -109,4 +109,4 @@ TEST(Schedule, IsAPage) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::schedule_test

@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::schemes_test {
 namespace {
 
 NumericsCase of_scheme(Scheme scheme) {
@@ -211,4 +211,4 @@ TEST(Schemes, WaterRests) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::schemes_test

@@ -4,7 +4,7 @@
 #include "../common/error_of.h"
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::settling_test {
 namespace {
 
 constexpr int packing_iterations = 100;
@@ -101,4 +101,4 @@ TEST(SettlingWithoutGravity, DoesNothing) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::settling_test

@@ -7,7 +7,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::shepard_figures_test {
 namespace {
 
 constexpr double smoothing = 0.2;  // h, m
@@ -398,4 +398,4 @@ INSTANTIATE_TEST_SUITE_P(Precisions, ExactFacets, ::testing::Values(Precision::s
                          [](const auto& info) { return info.param == Precision::single ? "Single" : "Double"; });
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::shepard_figures_test

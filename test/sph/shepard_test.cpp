@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::shepard_test {
 namespace {
 
 constexpr double spacing = 0.1;
@@ -190,4 +190,4 @@ INSTANTIATE_TEST_SUITE_P(Precisions, ShepardFactor, ::testing::Values(Precision:
                          [](const auto& info) { return info.param == Precision::single ? "Single" : "Double"; });
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::shepard_test

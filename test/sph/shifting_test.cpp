@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::shifting_test {
 namespace {
 
 /// Particles without gravity and walls, of which velocities are set and the first step's shifts found.
@@ -165,4 +165,4 @@ TEST_F(ShiftingLaws, NeverMoveAParticleFartherThanAFifthOfTheSpacing) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::shifting_test

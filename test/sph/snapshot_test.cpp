@@ -2,7 +2,7 @@
 #include "../common/error_of.h"
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::snapshot_test {
 namespace {
 
 std::vector<char> cut(const std::vector<char>& bytes, std::size_t less) { return {bytes.begin(), bytes.end() - less}; }
@@ -66,4 +66,4 @@ TEST_F(SolverSnapshot, IsRefusedAsAWhole) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::snapshot_test

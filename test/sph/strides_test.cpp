@@ -4,7 +4,7 @@
 #include "sph_fixture.h"
 #include "wavetank/sph/kernel_sources.h"
 
-namespace wavetank {
+namespace wavetank::strides_test {
 namespace {
 
 TEST(Strides, AreLongInEveryKernel) {
@@ -19,4 +19,4 @@ TEST(Strides, AreLongInEveryKernel) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::strides_test

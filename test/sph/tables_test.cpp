@@ -9,7 +9,7 @@
 #include "sph_fixture.h"
 #include "wavetank/sph/kernel_sources.h"
 
-namespace wavetank {
+namespace wavetank::tables_test {
 namespace {
 
 constexpr ParticleArray state = ParticleArray::state, rates = ParticleArray::rates;
@@ -87,4 +87,4 @@ TEST(Parameters, AreLaidOutAsTheDeviceDeclaresThem) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::tables_test

@@ -6,7 +6,7 @@
 #include "../common/box_case.h"
 #include "../common/error_of.h"
 
-namespace wavetank {
+namespace wavetank::tank_images_test {
 namespace {
 
 std::vector<TankImage> images_of(const Case& checked, Discretisation* discretisation = nullptr) {
@@ -181,4 +181,4 @@ TEST(TankImages, AShortPeriodIsRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::tank_images_test

@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::thin_plate_test {
 namespace {
 
 constexpr double spacing = 0.02, gravity = 9.81, density = 1000;
@@ -136,4 +136,4 @@ TEST(ThinPlate, WaterAtRestStaysSoAboutItsLowerEdge) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::thin_plate_test

@@ -6,7 +6,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::tiling_test {
 namespace {
 
 constexpr unsigned seed = 2024;
@@ -158,4 +158,4 @@ TEST(Tiling, GoesByTheDevicesClass) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::tiling_test

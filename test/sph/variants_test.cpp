@@ -9,7 +9,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::variants_test {
 namespace {
 
 /// A key of the case, and how it is given each of its values.
@@ -259,4 +259,4 @@ TEST(Variants, EveryValueRunsIn3D) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::variants_test

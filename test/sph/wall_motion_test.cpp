@@ -6,7 +6,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::wall_motion_test {
 namespace {
 
 struct Kind {
@@ -298,4 +298,4 @@ TEST(WallMotion, WaterOutOfReachOfABeltDoesNotFeelIt) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::wall_motion_test

@@ -3,7 +3,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::watchdog_test {
 namespace {
 
 /// Particles so far apart that none is in another's neighbour cells, nor near the tank's sides, where positions that are
@@ -100,4 +100,4 @@ TEST(State, OfAnotherSizeIsRefused) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::watchdog_test

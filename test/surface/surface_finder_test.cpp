@@ -17,7 +17,7 @@
 #include "../common/scratch_directory.h"
 #include "../sph/state_bytes.h"
 
-namespace wavetank {
+namespace wavetank::surface_finder_test {
 namespace {
 
 class SurfaceFinderTest : public ::testing::Test {
@@ -397,4 +397,4 @@ TEST_F(SurfaceFinderTest, run_is_the_same_to_the_last_bit) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::surface_finder_test

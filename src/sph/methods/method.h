@@ -44,6 +44,10 @@ Method turbulence_of(const Case& scene);
 Method shifting_of(const Case& scene);
 Method mls_pressure_of(const Case& scene);
 
+/// The numbers of every method that a case can choose, once each: kernels that know nothing of a method are then the same with it and
+/// without.
+std::vector<ParameterRow> parameters_of_every_method(const Case& scene);
+
 /// Components of gradients that kernels find for them: none, those of the compression, the rate of strain or the velocity's too, γ,
 /// and the eddy viscosity.
 int gradient_components(const Methods& methods);

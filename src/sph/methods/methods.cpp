@@ -17,6 +17,35 @@ bool any_has(const Methods& methods, bool Method::*flag) {
 
 }  // namespace
 
+namespace {
+
+void add_once(const std::vector<ParameterRow>& rows, std::vector<ParameterRow>& all) {
+  for (const ParameterRow& row : rows)
+    if (std::none_of(all.begin(), all.end(), [&](const ParameterRow& other) { return other.name == row.name; })) all.push_back(row);
+}
+
+template <class Choice>
+void add_of_each(Case scene, Choice NumericsCase::*key, Method (*method_of)(const Case&), std::vector<ParameterRow>& all) {
+  for (const MethodWord<Choice>& known : method_words<Choice>()) {
+    scene.numerics.*key = known.choice;
+    add_once(method_of(scene).parameters, all);
+  }
+}
+
+}  // namespace
+
+std::vector<ParameterRow> parameters_of_every_method(const Case& scene) {
+  std::vector<ParameterRow> all;
+  add_of_each(scene, &NumericsCase::scheme, scheme_of, all);
+  add_of_each(scene, &NumericsCase::density_diffusion, density_diffusion_of, all);
+  add_of_each(scene, &NumericsCase::viscosity_model, viscosity_of, all);
+  add_of_each(scene, &NumericsCase::equation_of_state, equation_of_state_of, all);
+  add_of_each(scene, &NumericsCase::turbulence, turbulence_of, all);
+  add_of_each(scene, &NumericsCase::shifting, shifting_of, all);
+  add_of_each(scene, &NumericsCase::gradients, mls_pressure_of, all);
+  return all;
+}
+
 int gradient_components(const Methods& methods) {
   for (const Method& method : methods)
     if (method.stored_values > 0) return method.stored_values;
