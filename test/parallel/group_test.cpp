@@ -8,7 +8,7 @@
 #include "../common/error_of.h"
 #include "wavetank/common/error.h"
 
-namespace wavetank::parallel {
+namespace wavetank::parallel::group_test {
 namespace {
 
 TEST(Group, MessagesArriveInTheirOrder) {
@@ -56,4 +56,4 @@ TEST(Group, OneThatFailsStopsThoseThatWait) {
 }
 
 }  // namespace
-}  // namespace wavetank::parallel
+}  // namespace wavetank::parallel::group_test

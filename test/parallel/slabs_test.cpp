@@ -5,7 +5,7 @@
 
 #include "../common/error_of.h"
 
-namespace wavetank::parallel {
+namespace wavetank::parallel::slabs_test {
 namespace {
 
 using Cuts = std::vector<int>;
@@ -37,4 +37,4 @@ TEST(Slabs, ImbalanceIsThatOfTheHeaviest) {
 }
 
 }  // namespace
-}  // namespace wavetank::parallel
+}  // namespace wavetank::parallel::slabs_test

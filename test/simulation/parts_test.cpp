@@ -1,7 +1,7 @@
 // A simulation on several devices: its samples and snapshots are the same for any number of them, and what they cannot do is refused.
 #include "simulation_fixture.h"
 
-namespace wavetank {
+namespace wavetank::parts_test {
 namespace {
 
 using Parts = SimulationTest;
@@ -49,4 +49,4 @@ TEST_F(Parts, AreRefusedWhatTheyCannotDo) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::parts_test

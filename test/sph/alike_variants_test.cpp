@@ -4,7 +4,7 @@
 
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::alike_variants_test {
 namespace {
 
 constexpr double side = 1, wave_number = 2 * M_PI / side, sound = 10, rest_density = 1000;
@@ -124,4 +124,4 @@ TEST(AlikeVariants, PrecisionsDifferByRounding) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::alike_variants_test

@@ -4,7 +4,7 @@
 #include "../common/error_of.h"
 #include "sph_fixture.h"
 
-namespace wavetank {
+namespace wavetank::parted_solver_test {
 namespace {
 
 /// Water that runs out along a tank, over a step.
@@ -161,4 +161,4 @@ TEST(PartedSolver, RefusesWhatPartsCannotDoYet) {
 }
 
 }  // namespace
-}  // namespace wavetank
+}  // namespace wavetank::parted_solver_test
