@@ -185,6 +185,22 @@ class Program(ProgramTest):
             self.assertNotIn("out.bag.active", os.listdir(self.path("out/spacing=0.02")))  # nobody writes it any more
             self.assertFalse(os.path.exists(self.path("out/spacing=0.02/run.json")))
 
+    def test_without_setup_bash_every_tool_says_so(self):
+        tools = {}
+        for name in os.listdir(os.path.dirname(SCRIPT)):
+            with open(os.path.join(os.path.dirname(SCRIPT), name), encoding="utf-8") as file:
+                text = file.read()
+            if "from wavetank" in text and text.startswith("#!/usr/bin/env python3"):
+                tools[name] = os.path.join(os.path.dirname(SCRIPT), name)
+        self.assertLessEqual({"sweep", "render", "export", "waves", "plot_probes"}, set(tools))
+        for name, path in sorted(tools.items()):
+            bare = {"PATH": "/usr/bin:/bin", "HOME": self.folder}
+            done = subprocess.run(["/usr/bin/python3", path], env=bare, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            self.assertEqual(done.returncode, 2, name + ": " + done.stderr)
+            self.assertRegex(done.stderr, r"^%s: No module named '[a-z]+': (source the setup\.bash of its workspace|install python3-)[^\n]*\n$" % name)
+        bare = subprocess.run(["/usr/bin/python3", SCRIPT], env=bare, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(bare.stderr, "sweep: No module named 'wavetank': source the setup.bash of its workspace, as in 'source devel/setup.bash'\n")
+
     def test_what_is_wrong_is_one_sentence(self):
         case = self.case()
         for arguments, sentence in (
