@@ -96,6 +96,61 @@ TEST(Catenary, SolvesItsEquationsEverywhere) {
   }
 }
 
+/// Where a line ends that begins at its anchor with a pull, m: the balance of its elements, whose tension T turns by their weight and
+/// stretches them, dT/ds = (0, w) and dx/ds = T/|T| (1 + c |T|), by Runge and Kutta's fourth order in `steps`. No formula of a catenary is in
+/// it. `tension`: at its end, N.
+Eigen::Vector2d end_of_line(const Catenary& line, const CatenaryPull& pull, int steps, Eigen::Vector2d& tension) {
+  Eigen::Vector2d place(pull.lying * (1 + line.compliance * pull.horizontal), 0);  // what lies is as taut everywhere
+  tension = Eigen::Vector2d(pull.horizontal, pull.anchor_vertical);
+  const double step = (line.length - pull.lying) / steps;
+  const auto direction = [&](double on) -> Eigen::Vector2d {
+    const Eigen::Vector2d at = tension + Eigen::Vector2d(0, line.weight * on);
+    return at / at.norm() * (1 + line.compliance * at.norm());
+  };
+  for (int k = 0; k < steps; ++k) {
+    place += step / 6 * (direction(0) + 4 * direction(0.5 * step) + direction(step));
+    tension.y() += line.weight * step;
+  }
+  return place;
+}
+
+TEST(Catenary, IsTheLineWhoseElementsAreInBalance) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  double worst = 0;
+  int hanging = 0, lying = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const bool bed = trial % 2 == 0;
+    const Catenary line{1 + 20 * part(generator), 1 + 100 * part(generator), trial % 3 == 0 ? 0 : 1e-3 * part(generator), bed};
+    const double rise = (bed ? 1 : 2 * part(generator) - 1) * 0.9 * part(generator) * line.length;
+    const double reach = std::sqrt(line.length * line.length - rise * rise);
+    const double span = (0.3 + 0.68 * part(generator)) * reach;
+    const std::optional<CatenaryPull> pull = catenary_pull(line, span, rise);
+    ASSERT_TRUE(pull) << trial;
+    if (pull->horizontal < 1e-2 * line.weight * line.length) continue;  // straight down, where the direction jumps at the bottom
+    Eigen::Vector2d tension;
+    const Eigen::Vector2d end = end_of_line(line, *pull, 500, tension);
+    worst = std::max(worst, (end - Eigen::Vector2d(span, rise)).norm() / line.length);
+    EXPECT_NEAR(tension.norm(), pull->tension(), 1e-9 * pull->tension()) << trial;
+    ++(pull->lying > 0 ? lying : hanging);
+  }
+  std::printf("lines integrated from their anchors end off their tops by at most %.1e of their length, %d that lie in part, %d that hang\n",
+              worst, lying, hanging);
+  EXPECT_LT(worst, 1e-7);
+  EXPECT_GT(lying, 50);
+  EXPECT_GT(hanging, 50);
+}
+
+TEST(Catenary, HasTheFiguresOfATextbook) {
+  // R. C. Hibbeler, Engineering Mechanics: Statics, chapter 7, the uniform cable of 5 N/m over 20 m that sags by 6 m: it is 24.2 m long, its
+  // horizontal pull is 45.9 N and its greatest tension 75.9 N, as printed
+  const std::optional<CatenaryPull> pull = catenary_pull({24.2, 5, 0, false}, 20, 0);
+  ASSERT_TRUE(pull);
+  // a length of three digits is good to 0.05 m, by which the pull changes by 0.5 N
+  EXPECT_NEAR(pull->horizontal, 45.9, 0.5);
+  EXPECT_NEAR(pull->tension(), 75.9, 0.4);
+}
+
 // ---- moorings of a body
 
 Case moored(const MooringCase& line) {
@@ -157,6 +212,62 @@ TEST(Moorings, ACatenaryHoldsABuoyWhereItsPullBalances) {
   for (const Vector3d& place : mooring.line) EXPECT_NEAR(place.y(), 2, 1e-9);
   EXPECT_LT((mooring.line.front() - line.anchor).norm(), 1e-9);
   EXPECT_LT((mooring.line.back() - run.world.state(1).position).norm(), 1e-9);
+}
+
+// What the line takes from the body it gives to the tank: together they gain the weight of the line, about the line's middle, and nothing
+// else but their own.
+TEST(Moorings, ACatenaryOnAFreeTankLeavesBothTogetherItsWeightAlone) {
+  for (const double length : {5.2, 4.4}) {  // lying in part, and hanging
+    MooringCase line = catenary_from(Vector3d(3, 2, 2), length, 30);
+    line.axial_stiffness = 1e5;
+    line.bed = length > 5;
+    if (!line.bed) line.anchor = {3, 2, 4};
+    Case scene = moored(line);
+    scene.tank.motion = Motion::free;
+    scene.tank.rigid.mass = 300;
+    scene.tank.rigid.centre_of_mass = Vector3d(6, 2, 3);
+    scene.tank.rigid.inertia = {2000, 5000, 6000, 0, 0, 0};
+    scene.bodies[0].rigid.velocity = {0.3, 0.2, 0.1};
+    constexpr double step = 2e-4;
+    Trial run(scene, step);
+    const double mass = run.world.properties(1).mass;
+    const auto momentum = [&] { return Vector3d(mass * run.world.state(1).velocity + 300 * run.world.state(0).velocity); };
+    const auto spin = [&] {  // about the origin
+      Vector3d sum = Vector3d::Zero();
+      for (const std::size_t o : {0, 1}) {
+        const RigidState state = run.world.state(o);
+        const Eigen::Matrix3d turn = state.orientation.toRotationMatrix();
+        sum += run.world.properties(o).mass * state.position.cross(state.velocity) +
+               turn * run.world.properties(o).inertia * turn.transpose() * state.angular_velocity;
+      }
+      return sum;
+    };
+    const Vector3d before = momentum(), spin_before = spin();
+    Vector3d turned = Vector3d::Zero(), by_line = Vector3d::Zero();
+    double pulled = 0, lying = 0;
+    run.until(0.4, [&] {
+      const MooringState mooring = run.world.moorings().at(0);
+      Vector3d middle = Vector3d::Zero();  // of the line's weight, by trapezia over places that are evenly spread along it
+      for (std::size_t k = 0; k + 1 < mooring.line.size(); ++k)
+        middle += 0.5 * (mooring.line[k] + mooring.line[k + 1]) / static_cast<double>(mooring.line.size() - 1);
+      const RigidState tank = run.world.state(0);
+      const Vector3d place = tank.moved(middle, run.world.reference(0));
+      by_line += step * place.cross(Vector3d(0, 0, -30 * length));
+      for (const std::size_t o : {0, 1})
+        turned += step * run.world.state(o).position.cross(Vector3d(0, 0, -gravity * run.world.properties(o).mass));
+      pulled = std::max(pulled, mooring.tension);
+      lying = std::max(lying, mooring.lying);
+    });
+    EXPECT_GT(pulled, 30);
+    EXPECT_EQ(lying > 0.5, line.bed);
+    const Vector3d gained = momentum() - before, weight(0, 0, -0.4 * (gravity * (mass + 300) + 30 * length));
+    EXPECT_LT((gained - weight).head<2>().norm(), 1e-9);
+    EXPECT_NEAR(gained.z(), weight.z(), 1e-5 * 0.4 * 30 * length) << "a step's own implicit part, of order (step)²";
+    const Vector3d change = spin() - spin_before - turned;
+    std::printf("angular momentum by a line %s: off by %.2g of what its weight gives\n", line.bed ? "that lies in part" : "that hangs",
+                (change - by_line).norm() / by_line.norm());
+    EXPECT_LT((change - by_line).norm(), 5e-3 * by_line.norm()) << "sums at the ends of steps, and 24 chords in the place of the curve";
+  }
 }
 
 TEST(Moorings, AStiffCatenaryIsStable) {
