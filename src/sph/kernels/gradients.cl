@@ -54,15 +54,15 @@ INLINE real distance_past_gaps(__constant const parameters_t* p, __global const 
 #endif
 
 #if GHOSTS && EDDIES
-// From the nearest of the planes that mirror.
+// From the nearest of the planes that mirror; of an image in two or three planes each has one of its own, unless it is an end that repeats itself.
 INLINE real distance_from_planes(__constant const parameters_t* p, __global const real* images, real x, real y, real z) {
   real nearest = p->support;
   for (int k = 0; k < p->images; ++k) {
     __global const real* image = images + k * IMAGE_COUNT;
     if (image[IMAGE_MIRRORED] < R(0.5)) continue;
     __global const real* plane = image + IMAGE_NEAR;
+    if (plane[4] != R(0.0) || plane[5] != R(0.0) || plane[6] != R(0.0)) continue;
 #if PIERCED
-    if (image[IMAGE_NEAR + 4] != R(0.0) || image[IMAGE_NEAR + 5] != R(0.0) || image[IMAGE_NEAR + 6] != R(0.0)) continue;  // planes one by one
     nearest = fmin(nearest, distance_past_gaps(p, images, k, plane[0] * x + plane[1] * y + plane[2] * z + plane[3], x, y, z));
 #else
     nearest = fmin(nearest, plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
