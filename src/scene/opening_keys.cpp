@@ -1,11 +1,14 @@
 #include "opening_keys.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "motion_values.h"
 #include "wavetank/common/expression.h"
+#include "wavetank/scene/upward.h"
 
 namespace wavetank::scene {
 namespace {
@@ -277,6 +280,79 @@ void check_wall(const Case& read, const OpeningCase& opening, const Clash& clash
                       " is no mesh and has no parts; give centre, normal and size");
 }
 
+/// Of what was computed: without the digits of rounding.
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string place_text(const Vector3d& place) { return "(" + figure(place.x()) + ", " + figure(place.y()) + ", " + figure(place.z()) + ") m"; }
+
+/// Middles of cells of about a spacing over an opening that is a rectangle or a disc: of an inlet those below its level, since its
+/// expressions count nowhere else.
+std::vector<Vector3d> places_of_flow(const Case& read, const OpeningCase& opening) {
+  constexpr int usual = 20;  // cells, where the spacing is not known yet
+  const Vector3d normal = opening.normal.normalized();
+  Vector3d up = opening.up.value_or(upward(read));
+  if (up.cross(normal).norm() < 1e-3 * up.norm())
+    up = read.dimensions == 2 || std::abs(normal.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
+  up = (up - up.dot(normal) * normal).normalized();
+  const Vector3d across = up.cross(normal);
+  const double height = opening.diameter ? *opening.diameter : (*opening.size)[1];
+  const double width = read.dimensions == 2 ? 0 : opening.diameter ? *opening.diameter : (*opening.size)[0];
+  const auto cells = [&](double length) {
+    if (length == 0) return 1;
+    return read.fluid.spacing ? std::clamp(static_cast<int>(std::lround(length / *read.fluid.spacing)), 1, 1000) : usual;
+  };
+  const Top top = top_of(read);
+  std::vector<Vector3d> places;
+  for (int i = 0; i < cells(width); ++i)
+    for (int j = 0; j < cells(height); ++j) {
+      const double x = ((i + 0.5) / cells(width) - 0.5) * width, y = ((j + 0.5) / cells(height) - 0.5) * height;
+      if (opening.diameter && std::hypot(x, y) > 0.5 * *opening.diameter) continue;
+      places.push_back(opening.centre + x * across + y * up);
+      if (opening.kind == OpeningKind::inlet && opening.level && top.way * places.back()[top.axis] >= top.way * *opening.level)
+        places.pop_back();
+    }
+  return places;
+}
+
+/// What an expression gives where water passes, and while the run lasts: the run would find it out too, but no longer knows the line.
+void check_expressions(const Case& read, const OpeningCase& opening, const Clash& clash) {
+  const auto check = [&](const std::string& key, const std::string& text, double value, const std::string& at, bool may_be_negative) {
+    if (std::isfinite(value) && (may_be_negative || value >= 0)) return;
+    clash(key, text + ", which is " + figure(value) + " at " + at + "; it must be finite" + (may_be_negative ? "" : " and at least 0"));
+  };
+  constexpr int looks = 1000;
+  const auto check_times = [&](const std::string& key, const std::string& text, bool may_be_negative) {
+    if (text.empty()) return;
+    const Expression expression(text, Expression::Of::time);
+    for (int k = 0; k <= looks; ++k) {
+      const double time = read.duration * k / looks;
+      check(key, text, expression.at(time), "t = " + figure(time) + " s", may_be_negative);
+    }
+  };
+  check_times("discharge", opening.discharge, false);
+  check_times("head", opening.head, true);
+  const bool by_place = !opening.velocity.empty() && Expression(opening.velocity, Expression::Of::time_and_place).depends_on_place();
+  if (!by_place) check_times("velocity", opening.velocity, false);
+  if (!opening.part.empty()) return;  // its place is known when the mesh is read
+  const std::vector<Vector3d> places = places_of_flow(read, opening);
+  if (by_place) {
+    const Expression expression(opening.velocity, Expression::Of::time_and_place);
+    for (const Vector3d& place : places) check("velocity", opening.velocity, expression.at(0.0, place), place_text(place) + " and t = 0", false);
+  }
+  if (opening.profile == "uniform" || opening.profile == "parabolic") return;
+  const Expression expression(opening.profile);
+  double greatest = 0;
+  for (const Vector3d& place : places) {
+    check("profile", opening.profile, expression.at(place), place_text(place), false);
+    greatest = std::max(greatest, expression.at(place));
+  }
+  if (!places.empty() && greatest == 0) clash("profile", opening.profile + ", which is 0 wherever water passes");
+}
+
 }  // namespace
 
 void check_openings(const Case& read, const Setting& root) {
@@ -290,6 +366,7 @@ void check_openings(const Case& read, const Setting& root) {
       clash("kind", word_of(opening.kind) + ", and tank/motion is not fixed; openings are for tanks that stand");
     check_return(read, opening, clash);
     check_wall(read, opening, clash);
+    check_expressions(read, opening, clash);
   }
 }
 
