@@ -1,7 +1,9 @@
 #include "instrument_checks.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "opening_pockets.h"
 #include "polygon.h"
 #include "wavetank/common/error.h"
 
@@ -38,41 +40,63 @@ void check_probe(const char* kind, const Probe& probe, const Basin& basin, const
   }
 }
 
-/// Evenly spread on the disc's rim (2-D: its ends).
-std::vector<Vector3d> rim_of(const PressureProbeCase& probe, const Vector3d& normal, int dimensions) {
-  const double radius = 0.5 * probe.diameter;
-  std::vector<Vector3d> rim;
-  if (dimensions == 2) {
-    const Vector3d along = normal.cross(Vector3d::UnitY());
-    return {probe.position - radius * along, probe.position + radius * along};
+/// Evenly spread on the disc's rim (2-D: its ends), and half way to it.
+std::vector<Vector3d> places_on_disc(const PressureProbeCase& probe, const Vector3d& normal, int dimensions) {
+  std::vector<Vector3d> places;
+  for (const double radius : {0.5 * probe.diameter, 0.25 * probe.diameter}) {
+    if (dimensions == 2) {
+      const Vector3d along = normal.cross(Vector3d::UnitY());
+      places.insert(places.end(), {probe.position - radius * along, probe.position + radius * along});
+      continue;
+    }
+    const Vector3d a = normal.unitOrthogonal(), b = normal.cross(a);
+    constexpr int count = 12;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::acos(-1.0) * k / count;
+      places.push_back(probe.position + radius * (std::cos(angle) * a + std::sin(angle) * b));
+    }
   }
-  const Vector3d a = normal.unitOrthogonal(), b = normal.cross(a);
-  constexpr int count = 12;
-  for (int k = 0; k < count; ++k) {
-    const double angle = 2 * std::acos(-1.0) * k / count;
-    rim.push_back(probe.position + radius * (std::cos(angle) * a + std::sin(angle) * b));
-  }
-  return rim;
+  return places;
 }
 
-Vector3d disc_normal(const PressureProbeCase& probe, const Basin& basin, double spacing) {
+/// Whether a wall that faces about the same way is so near to a place of a sensor's disc that it may be curved, but does not end before it.
+bool on_wall(const Vector3d& place, const Vector3d& normal, double diameter, const TriangleGrid& grid) {
+  constexpr double bent = 0.05, beyond = 1e-6, slope = 0.25;  // of the diameter, along the normal and across; of a curved wall
+  const auto wall = grid.nearest(place, bent * diameter);
+  if (!wall) return false;
+  const Vector3d way = wall->point - place;
+  const double along = way.dot(normal);
+  return (way - along * normal).norm() <= beyond * diameter + slope * std::abs(along);
+}
+
+bool in_opening(const Vector3d& place, const Opening& opening, double spacing) {
+  const std::vector<PocketSide> sides = sides_of_pocket(opening, spacing);
+  return std::all_of(sides.begin(), sides.end(), [&](const PocketSide& side) { return side.normal.dot(place) < side.offset; });
+}
+
+Vector3d disc_normal(const PressureProbeCase& probe, const Basin& basin, const std::vector<Opening>& openings, double spacing) {
   const std::string name = "pressure probe '" + probe.name + "' at " + describe(probe.position) + " m has a disc ";
   const auto wall = basin.grid->nearest(probe.position, 0.25 * spacing);
   if (!wall) throw Error(name + "and lies on no wall; leave out its diameter, or put it on a wall");
   const Vector3d normal = basin.grid->normal(wall->triangle);
-  for (const Vector3d& place : rim_of(probe, normal, basin.dimensions))
-    if (!basin.grid->nearest(place, 0.05 * probe.diameter))
+  for (const Vector3d& place : places_on_disc(probe, normal, basin.dimensions)) {
+    if (!on_wall(place, normal, probe.diameter, *basin.grid))
       throw Error(name + "that reaches beyond its wall at " + describe(place) + " m; make its diameter less, or move it");
+    for (const Opening& opening : openings)
+      if (in_opening(place, opening, spacing))
+        throw Error(name + "that reaches over opening '" + opening.name + "' at " + describe(place) + " m; make its diameter less, or move it");
+  }
   return normal;
 }
 
 }  // namespace
 
-std::vector<Vector3d> disc_normals(const InstrumentsCase& instruments, const Basin& basin, double spacing) {
+std::vector<Vector3d> disc_normals(const InstrumentsCase& instruments, const Basin& basin, const std::vector<Opening>& openings,
+                                   double spacing) {
   std::vector<Vector3d> normals;
   for (PressureProbeCase probe : instruments.pressure_probes) {
     if (basin.dimensions == 2) probe.position.y() = 0;
-    normals.push_back(probe.diameter > 0 ? disc_normal(probe, basin, spacing) : Vector3d(Vector3d::Zero()));
+    normals.push_back(probe.diameter > 0 ? disc_normal(probe, basin, openings, spacing) : Vector3d(Vector3d::Zero()));
   }
   return normals;
 }

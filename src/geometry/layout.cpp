@@ -504,7 +504,7 @@ Layout lay_out_parts(const Case& checked, const std::vector<Part>& parts) {
   for (const Part& part : parts) meshes.push_back(part.mesh);
   find_intruding(checked, meshes, assemblies, layout);
   check_instruments(checked.instruments, basin, open, layout.spacing);
-  layout.disc_normals = disc_normals(checked.instruments, basin, layout.spacing);
+  layout.disc_normals = disc_normals(checked.instruments, basin, layout.openings, layout.spacing);
   layout.sections = place_sections(checked.instruments.sections, basin, open, layout.spacing);
   return layout;
 }

@@ -213,6 +213,42 @@ TEST(PressureProbe, DiscThatIsNotOnOneWallIsRefused) {
   EXPECT_EQ(said(Vector3d(0.15, 0.3, 0.3), 0.1),
             "pressure probe 'P' at (0.15, 0.3, 0.3) m has a disc and lies on no wall; leave out its diameter, "
             "or put it on a wall");
+  // by as little as a hundredth of its diameter, where another wall of the same body is near
+  scene.bodies = {{"step", Box{Vector3d(0.1, 0.1, 0), Vector3d(0.3, 0.5, 0.2)}}};
+  scene.instruments.pressure_probes = {{"P", Vector3d(0.2, 0.2, 0.2)}};
+  scene.instruments.pressure_probes[0].diameter = 0.2;
+  EXPECT_NO_THROW(lay_out(scene)) << "up to the edge";
+  EXPECT_NE(said(Vector3d(0.2, 0.2, 0.2), 0.204).find("has a disc that reaches beyond its wall at"), std::string::npos);
+}
+
+TEST(PressureProbe, DiscThatReachesOverAnOpeningIsRefused) {
+  Case scene = box_case(Vector3d(0.6, 0.6, 0.8), 0.6, 0.03);
+  OpeningCase hole;
+  hole.name = "hole";
+  hole.kind = OpeningKind::outlet;
+  hole.centre = Vector3d(0, 0.3, 0.3);
+  hole.normal = Vector3d::UnitX();
+  hole.diameter = 0.1;
+  scene.openings = {hole};
+  scene.instruments.pressure_probes = {{"P", Vector3d(0, 0.3, 0.42)}};
+  scene.instruments.pressure_probes[0].diameter = 0.12;
+  EXPECT_NO_THROW(lay_out(scene));
+  scene.instruments.pressure_probes[0].diameter = 0.2;
+  EXPECT_NE(error_of([&scene] { lay_out(scene); }).find("has a disc that reaches over opening 'hole' at"), std::string::npos);
+}
+
+TEST(PressureProbe, DiscMayLieOnACurvedWall) {
+  // round a pile of 0.2 m radius a disc of 0.04 m is off it by 1 mm at its rim, and half a millimetre more by the tilt of the facet
+  Case scene = box_case(Vector3d(1.2, 1.2, 0.8), 0.6, 0.06);
+  MeshSource pile;
+  pile.uri = "shape://cylinder?radius=0.2&length=0.4&facets=128";
+  pile.translation = Vector3d(0.6, 0.6, 0.2);
+  scene.bodies = {{"pile", pile}};
+  scene.instruments.pressure_probes = {{"P", Vector3d(0.8, 0.6, 0.2)}};
+  scene.instruments.pressure_probes[0].diameter = 0.04;
+  EXPECT_NO_THROW(lay_out(scene));
+  scene.instruments.pressure_probes[0].diameter = 0.2;
+  EXPECT_NE(error_of([&scene] { lay_out(scene); }).find("has a disc that reaches beyond its wall at"), std::string::npos);
 }
 
 void expect_weight_on_tank(Case scene, double volume) {
