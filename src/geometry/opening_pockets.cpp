@@ -7,6 +7,7 @@
 
 #include "polygon.h"
 #include "wavetank/common/error.h"
+#include "wavetank/geometry/opening_picture.h"
 
 namespace wavetank {
 namespace {
@@ -150,6 +151,20 @@ void add_pocket(TriangleMesh& mesh, const Opening& opening, double spacing) {
 }
 
 }  // namespace
+
+std::vector<Vector3d> drawn_outline(const Opening& opening, const TriangleMesh& wall) {
+  if (opening.width > 0) return opening.outline;
+  const Box bounds = wall.bounding_box();
+  std::vector<Vector3d> corners{opening.outline[0], opening.outline[1], opening.outline[1], opening.outline[0]};
+  for (std::size_t k = 0; k < 4; ++k) corners[k].y() = k < 2 ? bounds.min.y() : bounds.max.y();
+  return corners;
+}
+
+TriangleMesh without_openings(TriangleMesh wall, int owner, const std::vector<Opening>& openings, double spacing) {
+  for (const Opening& opening : openings)
+    if (opening.owner == owner) cut_mesh(wall, opening, spacing);
+  return wall;
+}
 
 std::string called(const Opening& opening) { return "opening '" + opening.name + "' at " + describe(opening.centre) + " m"; }
 

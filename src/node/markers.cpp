@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "wavetank/geometry/opening_picture.h"
 #include "wavetank/node/geometry_messages.h"
 
 namespace wavetank {
@@ -88,6 +89,22 @@ Marker label(const Case& checked, const std::string& group, int id, const std::s
   return result;
 }
 
+std_msgs::ColorRGBA colour_of(OpeningKind kind) {
+  if (kind == OpeningKind::inlet) return colour(0.1F, 0.75F, 0.3F, 1.0F);
+  if (kind == OpeningKind::outlet) return colour(0.9F, 0.25F, 0.15F, 1.0F);
+  return colour(0.55F, 0.3F, 0.9F, 1.0F);
+}
+
+/// The wall with its openings cut out; a mesh file is sent as triangles then, since rviz would draw it whole.
+Marker wall_marker(const Case& checked, const Layout& layout, std::size_t owner, const std::string& group, int id, const MeshSource* source,
+                   const std_msgs::ColorRGBA& shade) {
+  const TriangleMesh& mesh = layout.meshes[owner];
+  const bool opened = std::any_of(layout.openings.begin(), layout.openings.end(),
+                                  [owner](const Opening& opening) { return opening.owner == static_cast<int>(owner); });
+  if (!opened) return surface_marker(checked, group, id, mesh, source, shade);
+  return surface_marker(checked, group, id, without_openings(mesh, static_cast<int>(owner), layout.openings, layout.spacing), nullptr, shade);
+}
+
 /// A marker that is drawn where the case's geometry has the body, in the frame of a body that moves.
 Marker moving_with(const BodyFrame& frame, Marker drawn) {
   if (!frame.moves) return drawn;
@@ -128,19 +145,33 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   drawing.markers.push_back(erase);
 
   drawing.markers.push_back(
-      surface_marker(checked, "tank", 0, layout.meshes[0], source_of(checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
+      wall_marker(checked, layout, 0, "tank", 0, source_of(checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
   drawing.markers.push_back(edge_marker(checked, "tank edges", 0, layout.meshes[0], 0.0015 * size, colour(0.75F, 0.8F, 0.85F, 0.9F)));
   for (std::size_t i = 0; i < checked.bodies.size(); ++i) {
     const int id = static_cast<int>(i);
     const TriangleMesh& mesh = layout.meshes[i + 1];
     const auto* source = source_of(checked.bodies[i].shape);
     drawing.markers.push_back(
-        moving_with(frames[i + 1], surface_marker(checked, "bodies", id, mesh, source, colour(0.95F, 0.6F, 0.15F, 1.0F))));
+        moving_with(frames[i + 1], wall_marker(checked, layout, i + 1, "bodies", id, source, colour(0.95F, 0.6F, 0.15F, 1.0F))));
     drawing.markers.push_back(
         moving_with(frames[i + 1], edge_marker(checked, "body edges", id, mesh, 0.0015 * size, colour(0.35F, 0.2F, 0.05F, 1.0F))));
   }
 
   const double text_height = 0.014 * size;
+  for (std::size_t k = 0; k < layout.openings.size(); ++k) {
+    const Opening& opening = layout.openings[k];
+    const int id = static_cast<int>(k);
+    const BodyFrame& frame = frames[opening.owner];
+    Marker edge = marker(checked, "openings", id, Marker::LINE_STRIP, colour_of(checked.openings[k].kind));
+    edge.scale.x = 0.003 * size;
+    const std::vector<Vector3d> corners = drawn_outline(opening, layout.meshes[opening.owner]);
+    for (const Vector3d& corner : corners) edge.points.push_back(point_message(corner));
+    edge.points.push_back(edge.points.front());
+    drawing.markers.push_back(moving_with(frame, edge));
+    const Vector3d highest = *std::max_element(corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
+    drawing.markers.push_back(
+        moving_with(frame, label(checked, "opening names", id, opening.name, highest + Vector3d(0, 0, text_height), text_height)));
+  }
   const auto add_probe = [&](const auto& probe, const std::string& kind, int id, const std_msgs::ColorRGBA& shade) {
     Marker sphere = marker(checked, kind + "s", id, Marker::SPHERE, shade);
     const BodyFrame& frame = frames[owner_of(checked, probe.body)];

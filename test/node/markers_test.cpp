@@ -62,6 +62,69 @@ TEST(Markers, DrawVelocityProbesAndSections) {
   EXPECT_EQ(find(drawing, "sections").points.size(), 5U) << "closed";
 }
 
+/// An opening of 0.4 m × 0.2 m in a wall of the example: the tank's end at x = 1, or the box's side at x = 2.
+Opening opening_in(int owner) {
+  Opening opening;
+  opening.name = "pipe";
+  opening.owner = owner;
+  opening.centre = owner == 0 ? Vector3d(1, 2.5, 3.5) : Vector3d(2, 2.5, 3.25);
+  opening.width = 0.4;
+  opening.height = 0.2;
+  for (const auto& [across, up] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+    opening.outline.push_back(opening.centre + Vector3d(0, 0.2 * across, 0.1 * up));
+  opening.area = 0.08;
+  opening.pocket = 0.3;
+  return opening;
+}
+
+double area_of(const Marker& triangles) {
+  const auto at = [&](std::size_t k) { return Vector3d(triangles.points[k].x, triangles.points[k].y, triangles.points[k].z); };
+  double area = 0;
+  for (std::size_t k = 0; k < triangles.points.size(); k += 3) area += 0.5 * (at(k + 1) - at(k)).cross(at(k + 2) - at(k)).norm();
+  return area;
+}
+
+TEST(Markers, DrawAnOpeningAsAHoleWithARim) {
+  for (const int owner : {0, 1}) {
+    const std::string group = owner == 0 ? "tank" : "bodies";
+    Case example = test::moving_box_case();
+    MeshSource source;
+    source.uri = "package://somewhere/hull.stl";  // which rviz would draw whole
+    example.bodies[0].shape = source;
+    example.openings.resize(1);
+    example.openings[0].kind = owner == 0 ? OpeningKind::outlet : OpeningKind::inlet;
+    Layout layout = example_layout();
+    layout.spacing = 0.05;
+    const double whole = area_of(find(markers(example, layout, example_frames(example), false), group));
+    layout.openings = {opening_in(owner)};
+    const auto drawing = markers(example, layout, example_frames(example));
+    EXPECT_NEAR(area_of(find(drawing, group)), whole - 0.08, 1e-9) << group;
+    const Marker rim = find(drawing, "openings");
+    EXPECT_EQ(rim.type, Marker::LINE_STRIP);
+    EXPECT_EQ(rim.points.size(), 5U) << "closed";
+    EXPECT_EQ(rim.header.frame_id, owner == 0 ? "basin" : "basin/bodies/box");
+    EXPECT_GT(owner == 0 ? rim.color.r : rim.color.g, 0.7F);
+    EXPECT_NEAR(rim.points[0].x + rim.pose.position.x, owner == 0 ? 1 : 2 - 1.75, 1e-12);
+    EXPECT_EQ(find(drawing, "opening names").text, "pipe");
+  }
+}
+
+TEST(Markers, DrawASlotOfTwoDimensionsOverItsWallsWidth) {
+  Layout layout = example_layout();
+  layout.spacing = 0.05;
+  layout.openings = {opening_in(0)};
+  layout.openings[0].width = 0;
+  layout.openings[0].outline = {Vector3d(1, 0, 3.4), Vector3d(1, 0, 3.6)};
+  layout.openings[0].area = 0.2;
+  Case example = example_case();
+  example.openings.resize(1);
+  const auto drawing = markers(example, layout, example_frames());
+  EXPECT_NEAR(area_of(find(drawing, "tank")), 2 * 1 + 2 * 2 + 2 * 1 - 0.2 * 1, 1e-4) << "a hair of the sides too";
+  const Marker rim = find(drawing, "openings");
+  EXPECT_EQ(rim.points[0].y, 2.0);
+  EXPECT_EQ(rim.points[2].y, 3.0);
+}
+
 TEST(Markers, KeepAPackageMeshAsAResource) {
   Case example = example_case();
   MeshSource source;
