@@ -84,7 +84,8 @@ Vector3d disc_normal(const PressureProbeCase& probe, const Basin& basin, const s
       throw Error(name + "that reaches beyond its wall at " + describe(place) + " m; make its diameter less, or move it");
     for (const Opening& opening : openings)
       if (in_opening(place, opening, spacing))
-        throw Error(name + "that reaches over opening '" + opening.name + "' at " + describe(place) + " m; make its diameter less, or move it");
+        throw Error(name + "that reaches over opening '" + opening.name + "' at " + describe(place) +
+                    " m; make its diameter less, or move it");
   }
   return normal;
 }

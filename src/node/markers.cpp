@@ -102,7 +102,8 @@ Marker wall_marker(const Case& checked, const Layout& layout, std::size_t owner,
   const bool opened = std::any_of(layout.openings.begin(), layout.openings.end(),
                                   [owner](const Opening& opening) { return opening.owner == static_cast<int>(owner); });
   if (!opened) return surface_marker(checked, group, id, mesh, source, shade);
-  return surface_marker(checked, group, id, without_openings(mesh, static_cast<int>(owner), layout.openings, layout.spacing), nullptr, shade);
+  return surface_marker(checked, group, id, without_openings(mesh, static_cast<int>(owner), layout.openings, layout.spacing), nullptr,
+                        shade);
 }
 
 /// A marker that is drawn where the case's geometry has the body, in the frame of a body that moves.
@@ -144,8 +145,7 @@ visualization_msgs::MarkerArray markers(const Case& checked, const Layout& layou
   erase.action = Marker::DELETEALL;
   drawing.markers.push_back(erase);
 
-  drawing.markers.push_back(
-      wall_marker(checked, layout, 0, "tank", 0, source_of(checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
+  drawing.markers.push_back(wall_marker(checked, layout, 0, "tank", 0, source_of(checked.tank.shape), colour(0.55F, 0.7F, 0.8F, 0.12F)));
   drawing.markers.push_back(edge_marker(checked, "tank edges", 0, layout.meshes[0], 0.0015 * size, colour(0.75F, 0.8F, 0.85F, 0.9F)));
   for (std::size_t i = 0; i < checked.bodies.size(); ++i) {
     const int id = static_cast<int>(i);

@@ -287,7 +287,9 @@ std::string figure(double value) {
   return text;
 }
 
-std::string place_text(const Vector3d& place) { return "(" + figure(place.x()) + ", " + figure(place.y()) + ", " + figure(place.z()) + ") m"; }
+std::string place_text(const Vector3d& place) {
+  return "(" + figure(place.x()) + ", " + figure(place.y()) + ", " + figure(place.z()) + ") m";
+}
 
 /// Middles of cells of about a spacing over an opening that is a rectangle or a disc: of an inlet those below its level, since its
 /// expressions count nowhere else.
@@ -341,7 +343,8 @@ void check_expressions(const Case& read, const OpeningCase& opening, const Clash
   const std::vector<Vector3d> places = places_of_flow(read, opening);
   if (by_place) {
     const Expression expression(opening.velocity, Expression::Of::time_and_place);
-    for (const Vector3d& place : places) check("velocity", opening.velocity, expression.at(0.0, place), place_text(place) + " and t = 0", false);
+    for (const Vector3d& place : places)
+      check("velocity", opening.velocity, expression.at(0.0, place), place_text(place) + " and t = 0", false);
   }
   if (opening.profile == "uniform" || opening.profile == "parabolic") return;
   const Expression expression(opening.profile);

@@ -195,7 +195,9 @@ class Program(ProgramTest):
         self.assertLessEqual({"sweep", "render", "export", "waves", "plot_probes"}, set(tools))
         for name, path in sorted(tools.items()):
             bare = {"PATH": "/usr/bin:/bin", "HOME": self.folder}
-            done = subprocess.run(["/usr/bin/python3", path], env=bare, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            done = subprocess.run(
+                ["/usr/bin/python3", path], env=bare, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True
+            )
             self.assertEqual(done.returncode, 2, name + ": " + done.stderr)
             self.assertRegex(done.stderr, r"^%s: No module named '[a-z]+': (source the setup\.bash of its workspace|install python3-)[^\n]*\n$" % name)
         bare = subprocess.run(["/usr/bin/python3", SCRIPT], env=bare, stderr=subprocess.PIPE, universal_newlines=True)

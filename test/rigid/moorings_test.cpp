@@ -97,8 +97,8 @@ TEST(Catenary, SolvesItsEquationsEverywhere) {
 }
 
 /// Where a line ends that begins at its anchor with a pull, m: the balance of its elements, whose tension T turns by their weight and
-/// stretches them, dT/ds = (0, w) and dx/ds = T/|T| (1 + c |T|), by Runge and Kutta's fourth order in `steps`. No formula of a catenary is in
-/// it. `tension`: at its end, N.
+/// stretches them, dT/ds = (0, w) and dx/ds = T/|T| (1 + c |T|), by Runge and Kutta's fourth order in `steps`. No formula of a catenary is
+/// in it. `tension`: at its end, N.
 Eigen::Vector2d end_of_line(const Catenary& line, const CatenaryPull& pull, int steps, Eigen::Vector2d& tension) {
   Eigen::Vector2d place(pull.lying * (1 + line.compliance * pull.horizontal), 0);  // what lies is as taut everywhere
   tension = Eigen::Vector2d(pull.horizontal, pull.anchor_vertical);
@@ -142,8 +142,8 @@ TEST(Catenary, IsTheLineWhoseElementsAreInBalance) {
 }
 
 TEST(Catenary, HasTheFiguresOfATextbook) {
-  // R. C. Hibbeler, Engineering Mechanics: Statics, chapter 7, the uniform cable of 5 N/m over 20 m that sags by 6 m: it is 24.2 m long, its
-  // horizontal pull is 45.9 N and its greatest tension 75.9 N, as printed
+  // R. C. Hibbeler, Engineering Mechanics: Statics, chapter 7, the uniform cable of 5 N/m over 20 m that sags by 6 m: it is 24.2 m long,
+  // its horizontal pull is 45.9 N and its greatest tension 75.9 N, as printed
   const std::optional<CatenaryPull> pull = catenary_pull({24.2, 5, 0, false}, 20, 0);
   ASSERT_TRUE(pull);
   // a length of three digits is good to 0.05 m, by which the pull changes by 0.5 N

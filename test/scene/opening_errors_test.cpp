@@ -82,18 +82,20 @@ INSTANTIATE_TEST_SUITE_P(
               "    discharge:",
               "    profile: max(z - 1, 0)\n    discharge:",
               {"case.yaml:16: openings/0/profile is max(z - 1, 0), which is 0 wherever water passes"}},
-        Fault{"ProfileThatIsNoNumber",
-              "    discharge:",
-              "    profile: sqrt(0.5 - y)\n    discharge:",
-              {"case.yaml:16: openings/0/profile is sqrt(0.5 - y), which is", "nan at (0, 0.55, 0.35) m; it must be finite and at least 0"}},
+        Fault{
+            "ProfileThatIsNoNumber",
+            "    discharge:",
+            "    profile: sqrt(0.5 - y)\n    discharge:",
+            {"case.yaml:16: openings/0/profile is sqrt(0.5 - y), which is", "nan at (0, 0.55, 0.35) m; it must be finite and at least 0"}},
         Fault{"DischargeThatTurns",
               "0.1*t",
               "0.1 - 0.1*t",
               {"case.yaml:16: openings/0/discharge is 0.1 - 0.1*t, which is -0.0002 at t = 1.002 s; it must be finite and at least 0"}},
-        Fault{"VelocityThatTurnsInPlaces",
-              "    discharge: 0.1*t",
-              "    velocity: 0.1*t + 0.5 - y",
-              {"case.yaml:16: openings/0/velocity is 0.1*t + 0.5 - y, which is -0.05 at (0, 0.55, 0.35) m and t = 0; it must be finite and"}},
+        Fault{
+            "VelocityThatTurnsInPlaces",
+            "    discharge: 0.1*t",
+            "    velocity: 0.1*t + 0.5 - y",
+            {"case.yaml:16: openings/0/velocity is 0.1*t + 0.5 - y, which is -0.05 at (0, 0.55, 0.35) m and t = 0; it must be finite and"}},
         Fault{"TwoLaws", "    discharge:", "    velocity: 1\n    discharge:", {"openings/0/discharge is given as well as velocity"}},
         Fault{"LawOfAnotherKind",
               "    discharge:",
@@ -133,8 +135,8 @@ TEST(ExpressionsOfOpenings, CountWhereWaterPasses) {
   const std::string below = replaced(sound, "    discharge:", "    level: 0.5\n    profile: 0.5 - z\n    discharge:");
   EXPECT_EQ(error_of(below), "(no error)");
   EXPECT_TRUE(contains(error_of(replaced(below, "level: 0.5", "level: 0.7")), "openings/0/profile is 0.5 - z, which is -0.05 at"));
-  const std::string round = replaced(replaced(sound, "    size: [0.4, 0.4]\n", "    diameter: 0.4\n"), "    discharge:",
-                                     "    profile: 0.04 - (y - 0.5)^2 - (z - 0.5)^2\n    discharge:");
+  const std::string round = replaced(replaced(sound, "    size: [0.4, 0.4]\n", "    diameter: 0.4\n"),
+                                     "    discharge:", "    profile: 0.04 - (y - 0.5)^2 - (z - 0.5)^2\n    discharge:");
   EXPECT_EQ(error_of(round), "(no error)");
 }
 

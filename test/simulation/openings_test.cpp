@@ -400,6 +400,88 @@ TEST_F(Openings, OfABodyThatMovesCarryTheirLattice) {
 
 TEST_F(Openings, OfABodyThatMovesRepeatFromASnapshot) { expect_to_go_on_from_a_snapshot(swinging_nozzle("0.8")); }
 
+/// A round nozzle in a box that moves over an empty tank in 3-D, and blows at a floor that is a drain in part.
+Case nozzle_on_an_arm(Motion motion) {
+  Case scene = box_case(Vector3d(0.8, 0.6, 0.6), 0.1, 0.025);
+  scene.fluid.fill.clear();
+  scene.fluid.sound_speed = 40;
+  scene.duration = 1;
+  BodyCase arm;
+  arm.name = "arm";
+  arm.shape = Box{Vector3d(0.1, 0.2, 0.25), Vector3d(0.3, 0.4, 0.45)};
+  arm.motion = motion;
+  if (motion == Motion::prescribed)
+    arm.rigid.prescribed.harmonics = {{Direction::yaw, 0.3, 1.3, 0.0, 0.1}, {Direction::pitch, -0.4, 0.9, 0.0, 0.1}};
+  scene.bodies = {arm};
+  OpeningCase nozzle = opening("nozzle", OpeningKind::inlet, Vector3d(0.3, 0.3, 0.35), Vector3d::UnitX(), 0);
+  nozzle.size.reset();
+  nozzle.diameter = 0.1;
+  nozzle.body = "arm";
+  nozzle.velocity = "0.8";
+  OpeningCase drain = opening("drain", OpeningKind::outlet, Vector3d(0.5, 0.3, 0), Vector3d::UnitZ(), 0);
+  drain.size = std::array<double, 2>{0.4, 0.5};
+  scene.openings = {nozzle, drain};
+  return scene;
+}
+
+// In 3-D, by a body that follows commands and by one that follows a law: rows a spacing apart along the nozzle, wherever that points, all
+// water that the discharge relative to the nozzle makes, and an account that is even.
+TEST_F(Openings, OfBodiesThatMoveInThreeDimensionsCarryTheirLattice) {
+  for (const Motion motion : {Motion::commanded, Motion::prescribed}) {
+    Simulation simulation(nozzle_on_an_arm(motion));
+    const Vector3d reference = simulation.bodies().reference(1);
+    std::size_t looked_at = 0;
+    while (simulation.state().time < 0.5) {
+      if (motion == Motion::commanded) simulation.command(1, Vector3d(0.1, 0.2, 0), Vector3d(0, 0.6, -0.8));
+      simulation.advance();
+      if (simulation.state().step % 20 != 0) continue;
+      const RigidState arm = simulation.bodies().state(1);
+      std::map<std::pair<long, long>, std::vector<double>> behind;  // along x, by column, in fifths of a spacing
+      for (const auto& [id, place] : places_of(simulation)) {
+        const Vector3d home = reference + arm.orientation.conjugate() * (place.cast<double>() - arm.position);
+        if (home.x() > 0.3 - 1e-3 * 0.025 || (home.tail<2>() - Eigen::Vector2d(0.3, 0.35)).norm() > 0.06 || home.x() < 0.1) continue;
+        behind[{std::lround(home.y() / 0.005), std::lround(home.z() / 0.005)}].push_back(home.x());
+      }
+      ASSERT_EQ(behind.size(), 12u) << "of the 16 cells of the disc's square, the corners' are given to their neighbours";
+      for (auto& [column, along] : behind) {
+        std::sort(along.begin(), along.end());
+        ASSERT_GE(along.size(), 3u);
+        for (std::size_t k = 1; k < along.size(); ++k) ASSERT_NEAR(along[k] - along[k - 1], 0.025, 5e-3 * 0.025) << simulation.state().time;
+        ++looked_at;
+      }
+    }
+    EXPECT_GT(looked_at, 100u);
+    const RigidState arm = simulation.bodies().state(1);
+    EXPECT_GT(arm.orientation.angularDistance(Quaterniond::Identity()), 0.1) << "it has turned";
+    const Balance balance = balance_of(simulation);
+    const double area = 0.25 * std::acos(-1.0) * 0.1 * 0.1;
+    std::printf("%.4f kg in, %.4f kg out, of %.4f\n", balance.in, balance.out, 1000 * area * 0.8 * simulation.state().time);
+    EXPECT_NEAR(balance.in, 1000 * area * 0.8 * simulation.state().time, 1000 * area * 0.025);
+    EXPECT_GT(balance.out, 0);
+    EXPECT_NEAR(mass_of(simulation) - 1000 * area * 0.1, balance.in - balance.out, 1e-6 * balance.in) << "0.1 m stand in the nozzle";
+  }
+}
+
+TEST_F(Openings, OfABodyThatMovesInThreeDimensionsRepeatFromASnapshot) {
+  expect_to_go_on_from_a_snapshot(nozzle_on_an_arm(Motion::prescribed));
+}
+
+// A rectangle in a wall, in 3-D, by which a tank is filled to a head, and a disc that takes as much away.
+TEST_F(Openings, OfThreeDimensionsMeetTheirAccounts) {
+  Case scene = box_case(Vector3d(0.8, 0.4, 0.5), 0.2, 0.04);
+  OpeningCase head = opening("head", OpeningKind::pressure, Vector3d(0, 0.2, 0.16), Vector3d::UnitX(), 0);
+  head.size = std::array<double, 2>{0.24, 0.16};
+  head.head = "0.35";
+  OpeningCase outlet = opening("outlet", OpeningKind::outlet, Vector3d(0.8, 0.2, 0.12), -Vector3d::UnitX(), 0);
+  outlet.size.reset();
+  outlet.diameter = 0.16;
+  outlet.discharge = "0.008";
+  scene.openings = {head, outlet};
+  scene.duration = 1;
+  const double out = 1000 * 0.008 * 0.5, row = 1000 * 0.25 * std::acos(-1.0) * 0.16 * 0.16 * 0.04;
+  expect_account(scene, 0.5, {0.2, 0}, {0, out - row});
+}
+
 // What leaves comes back: a channel that drives itself keeps its water, and what an outlet pumps the inlet brings.
 TEST_F(Openings, BringBackWhatLeavesAtAnother) {
   Case scene = channel("");
@@ -568,9 +650,9 @@ TEST_F(Openings, BetweenGhostsAChannelStaysUniform) {
 // stands in for the rest.
 TEST_F(Openings, BetweenGhostsStillWaterStaysStillBeforeHoles) {
   Case scene = with_ghosts(tank_with_outlet());
-  OpeningCase side = opening("side", OpeningKind::outlet, Vector3d(1.2, 0, 0.18), -Vector3d::UnitX(), 0.2);
+  OpeningCase side = opening("side", OpeningKind::outlet, Vector3d(1.2, 0, 0.2), -Vector3d::UnitX(), 0.32);
   side.level = depth;
-  OpeningCase floor = opening("floor", OpeningKind::pressure, Vector3d(0.5, 0, 0), Vector3d::UnitZ(), 0.2);
+  OpeningCase floor = opening("floor", OpeningKind::pressure, Vector3d(0.5, 0, 0), Vector3d::UnitZ(), 0.32);
   floor.up = Vector3d::UnitX();
   floor.head = "0.4";
   Case closed = scene;
@@ -586,7 +668,7 @@ TEST_F(Openings, BetweenGhostsStillWaterStaysStillBeforeHoles) {
   }
   std::printf("%.4f with holes, %.4f m/s without; in %.3g, out %.3g\n", fastest_with, fastest_without, balance_of(with).in,
               balance_of(with).out);
-  EXPECT_LT(fastest_with, 1.2 * fastest_without);
+  EXPECT_LT(fastest_with, 1.3 * fastest_without) << "1.25 was measured";
   EXPECT_EQ(balance_of(with).in, 0);
   EXPECT_EQ(balance_of(with).out, 0);
 }
@@ -610,15 +692,23 @@ TEST_F(Openings, BetweenGhostsWaterLeavesByASlot) {
   EXPECT_NEAR(left[1], left[0], 1.01 * 10 * spacing * spacing * 1000);  // a row of particles
 }
 
-// A round hole in 3-D.
+// A round hole in 3-D, and one that is too narrow for images beside it.
 TEST_F(Openings, BetweenGhostsWaterLeavesByARoundHole) {
-  Case scene = with_ghosts(box_case(Vector3d(0.6, 0.4, 0.4), 0.2, 0.04));
-  OpeningCase hole = opening("hole", OpeningKind::outlet, Vector3d(0.3, 0.2, 0), Vector3d::UnitZ(), 0);
+  Case scene = with_ghosts(box_case(Vector3d(0.6, 0.6, 0.4), 0.2, 0.04));
+  OpeningCase hole = opening("hole", OpeningKind::outlet, Vector3d(0.3, 0.3, 0), Vector3d::UnitZ(), 0);
   hole.size.reset();
-  hole.diameter = 0.16;
+  hole.diameter = 0.32;
   hole.level = -1;
   scene.openings = {hole};
-  expect_account(scene, 0.55, {0}, {0.1});
+  expect_account(scene, 0.3, {0}, {1});
+  scene.openings[0].diameter = 0.16;
+  EXPECT_EQ(error_of([&] { Simulation simulation(scene); }),
+            "opening 'hole' is a hole 4 spacings wide in a wall, and numerics/walls/method is ghost: half of what should leaves there; "
+            "make it at "
+            "least 8 spacings wide, give its discharge, or choose boundary_integral.");
+  scene.openings[0].discharge = "0.01";
+  scene.openings[0].level.reset();
+  EXPECT_NO_THROW(Simulation simulation(scene)) << "what is given leaves";
 }
 
 }  // namespace

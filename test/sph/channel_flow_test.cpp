@@ -154,7 +154,8 @@ TEST(ChannelFlow, OfLeastSquaresConverges) {
     found[2][fine] = start_up_error(channel_flow::channel(height / count, true), count, couette);
   }
   // twice what was measured: 0.43 and 0.10 %, 1.32 and 0.30 %, 0.69 and 0.14 %
-  const Flow flows[] = {{"Poiseuille, ghosts", 0.009, 0.002}, {"Poiseuille, integrals", 0.027, 0.006}, {"Couette, integrals", 0.014, 0.003}};
+  const Flow flows[] = {
+      {"Poiseuille, ghosts", 0.009, 0.002}, {"Poiseuille, integrals", 0.027, 0.006}, {"Couette, integrals", 0.014, 0.003}};
   for (int k = 0; k < 3; ++k) {
     std::printf("least squares, %-22s t = 0.5 s: error of the speed %.2f %% of 10 particles across, %.2f %% of 20\n", flows[k].name,
                 100 * found[k][0], 100 * found[k][1]);

@@ -148,9 +148,7 @@ std::array<double, 2> relative_accelerations(Case scene, double (*exact)(double 
   return range;
 }
 
-double relative_acceleration(const Case& scene, double (*exact)(double z)) {
-  return relative_accelerations(scene, exact)[0];
-}
+double relative_acceleration(const Case& scene, double (*exact)(double z)) { return relative_accelerations(scene, exact)[0]; }
 
 TEST(Eddies, HaveSmagorinskysViscosity) {
   // S = z and ν_t = (C_s Δx)² z, so that u gains 2 (C_s Δx)² z; of a viscosity of 1e-3 m²/s it gains that, and what the lattice's sum
@@ -168,8 +166,8 @@ TEST(Eddies, HaveSmagorinskysViscosity) {
 }
 
 // Towards a wall eddies are no longer than κ times its distance z, as far as the support reaches: in a shear u = a z their viscosity is
-// (κ z)² a. A particle beyond the support feels it by its neighbours nearer to the wall. What it gains by the formula is summed here over the
-// same places: of the pair's viscosity (ν_i + ν_j)/2 in Monaghan and Gingold's form.
+// (κ z)² a. A particle beyond the support feels it by its neighbours nearer to the wall. What it gains by the formula is summed here over
+// the same places: of the pair's viscosity (ν_i + ν_j)/2 in Monaghan and Gingold's form.
 TEST(Eddies, AreNoLongerThanTheMixingLengthOfAWall) {
   constexpr double karman = 0.41, shear = 2, support = 4 * spacing;
   const auto viscosity = [&](double z) { return std::pow(karman * std::min(z, support), 2) * shear; };
@@ -225,7 +223,8 @@ TEST(Eddies, BetweenGhostsDoNotEndAtPeriodicEnds) {
   scene.numerics.walls.method = WallMethod::ghost;
   scene.numerics.turbulence = Turbulence::smagorinsky;
   scene.numerics.smagorinsky_coefficient = 1;  // 0.03 m, which would be κ times a distance of 0.07 m
-  const auto [least, most] = relative_accelerations(scene, [](double z) { return 2 * spacing * spacing * z; }, 11);
+  const auto [least, most] = relative_accelerations(
+      scene, [](double z) { return 2 * spacing * spacing * z; }, 11);
   std::printf("acceleration by eddies of columns of water along periodic ghosts: %.4f to %.4f of the exact one\n", least, most);
   EXPECT_LT(most - least, 0.02);
 }
