@@ -266,7 +266,7 @@ TEST(Moorings, ACatenaryOnAFreeTankLeavesBothTogetherItsWeightAlone) {
     const Vector3d change = spin() - spin_before - turned;
     std::printf("angular momentum by a line %s: off by %.2g of what its weight gives\n", line.bed ? "that lies in part" : "that hangs",
                 (change - by_line).norm() / by_line.norm());
-    EXPECT_LT((change - by_line).norm(), 5e-3 * by_line.norm()) << "sums at the ends of steps, and 24 chords in the place of the curve";
+    EXPECT_LT((change - by_line).norm(), 2e-4 * by_line.norm()) << "sums at the ends of steps, and 24 chords in the place of the curve";
   }
 }
 
