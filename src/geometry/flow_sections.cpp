@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "opening_parts.h"
 #include "polygon.h"
@@ -67,7 +68,21 @@ std::vector<Vector3d> outline_of(const FlowSectionCase& given, const Opening& pl
   return outline;
 }
 
+/// Before any is made: what is far larger than the tank by mistake would take minutes and gigabytes.
+void check_size(const FlowSectionCase& given, int dimensions, double spacing) {
+  constexpr double most_cells = 1e7;
+  const auto along = [&](double length) { return std::max(1.0, length / spacing); };
+  const double cells = given.diameter      ? 0.25 * pi * along(*given.diameter) * along(*given.diameter)
+                       : (dimensions == 2) ? along((*given.size)[1])
+                                           : along((*given.size)[0]) * along((*given.size)[1]);
+  if (cells <= most_cells) return;
+  char count[32];
+  std::snprintf(count, sizeof count, "%.2g", cells);
+  throw Error("section '" + given.name + "' reaches over " + count + " cells of the spacing, and 1e7 at most are allowed; make it smaller");
+}
+
 FlowSection place_section(const FlowSectionCase& given, const Basin& basin, const OpenSpace& open, double spacing) {
+  check_size(given, basin.dimensions, spacing);
   Opening plane;  // of which the axes are those that an opening's would be
   plane.centre = given.centre;
   plane.normal = given.normal.normalized();

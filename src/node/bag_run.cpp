@@ -1,6 +1,8 @@
 #include "wavetank/node/bag_run.h"
 
+#include <algorithm>
 #include <climits>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -120,6 +122,7 @@ void BagRun::start() {
   first_ = last_ = simulation_->state();
   energies_ = simulation_->energies();
   progress_.set_begin(first_.time);
+  next_save_ = first_.time + options_.save_every;
   const std::vector<BodyFrame> frames = body_frames(case_, reference_points(simulation_->bodies()));
   messages_ = std::make_unique<SampleMessages>(case_, simulation_->layout(), frames);
   if (recorder_) recorder_->start(*simulation_, frames);
@@ -138,6 +141,7 @@ void BagRun::step_to_the_end() {
     }
     write_samples();
     if (!violation_.empty()) return;
+    if (options_.save_every > 0 && last_.time >= next_save_ - least_time_left) save_when_due();
     progress_.running(last_.time, last_.step);
   }
   seconds_ = elapsed();
@@ -206,6 +210,21 @@ void BagRun::finish_bag() {
 std::string BagRun::failure_snapshot() const {
   const fs::path beside = options_.bag.empty() ? fs::path(options_.case_file).filename() : fs::path(options_.bag);
   return free_path(fs::path(beside).replace_extension().string(), ".snapshot");
+}
+
+/// What is in the snapshot is in the bag too, whatever becomes of this process. Where it cannot be written the run goes on, and its end
+/// tries again.
+void BagRun::save_when_due() {
+  const double late = std::max(0.0, last_.time - next_save_);
+  next_save_ += options_.save_every * (1 + std::floor(late / options_.save_every));
+  if (recorder_) recorder_->keep();
+  try {
+    simulation_->save(options_.save);
+  } catch (const Error& error) {
+    progress_.clear();
+    if (!told_of_save_) log(LogLevel::warning, std::string(error.what()) + "; the run goes on, and tries again at the next snapshot");
+    told_of_save_ = true;
+  }
 }
 
 void BagRun::save_violation() {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -83,41 +84,47 @@ BagWriter::~BagWriter() { discard(); }
 
 /// Makes the file, through no link, and locks it until it is whole.
 void BagWriter::open_active() {
-  const auto open_new = [this] { return open(active_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666); };
-  file_ = open_new();
-  if (file_ < 0 && errno == EEXIST) {
-    keep_what_died();
-    file_ = open_new();
+  constexpr int most_attempts = 100;  // of which each follows another process that was faster
+  for (int k = 0; k < most_attempts && file_ < 0; ++k) {
+    file_ = open(active_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file_ < 0 && errno != EEXIST) throw Error("cannot write bag '" + path_ + "': " + std::strerror(errno));
+    if (file_ < 0) keep_what_died();
   }
-  if (file_ < 0) throw Error("cannot write bag '" + path_ + "': " + std::strerror(errno));
-  const bool others_have_it = flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const bool others_have_it = file_ < 0 || (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK);
   if (!others_have_it && is_same_file(file_, active_path_)) return;
-  close(file_);  // between its making and its lock, a process that began at the same time took it for what one that died had left
+  if (file_ >= 0)
+    close(file_);  // between its making and its lock, a process that began at the same time took it for what one that died had left
   file_ = -1;
   throw Error("cannot write bag '" + path_ + "': another process is writing it");
 }
 
-/// Puts what lies at the active name out of the way, if nobody writes it.
+/// Puts what lies at the active name out of the way, if nobody writes it. Whoever moves it there or away has locked it: what is locked and
+/// is still there by its name stays there.
 void BagWriter::keep_what_died() {
   const std::string what = "cannot write bag '" + path_ + "': ";
   const std::string obstacle = obstacle_to_file(active_path_);
   if (!obstacle.empty()) throw Error(what + "it is made as '" + active_path_ + "', and there " + obstacle.substr(0, obstacle.find(';')));
   const int left = open(active_path_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (left < 0 && errno == ENOENT) return;  // another process was faster
   const bool is_written = left >= 0 && flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (!is_written) {
+  std::string reason;
+  if (!is_written && (left < 0 || is_same_file(left, active_path_))) {
     const std::string kept = free_path(path_, ".active");
     const bool has_nothing = left >= 0 && length_of(left) == 0;  // a process that began at the same time and comes too late made it
-    if (std::rename(active_path_.c_str(), kept.c_str()) == 0 && !(has_nothing && unlink(kept.c_str()) == 0))
+    const bool is_gone = (has_nothing ? unlink(active_path_.c_str()) : std::rename(active_path_.c_str(), kept.c_str())) == 0;
+    if (!is_gone && errno != ENOENT) reason = std::strerror(errno);
+    if (is_gone && !has_nothing)
       log(LogLevel::warning,
           "a run that died left '" + active_path_ + "': it is kept as '" + kept + "', which rosbag reindex makes readable");
   }
   if (left >= 0) close(left);
+  if (!reason.empty()) throw Error(what + "'" + active_path_ + "', which a run that died left, cannot be put out of the way: " + reason);
   if (is_written) throw Error(what + "another process is writing it");
 }
 
 /// What the end of a bag of this length takes: index and connections, of which each is in its chunk as well.
 std::uint64_t BagWriter::closing_length(std::uint64_t bag_length) const {
-  const std::uint64_t topics = topics_.size(), chunks = bag_length / chunk_length + 2;
+  const std::uint64_t topics = topics_.size(), chunks = bag_length / chunk_length + kept_ + 2;
   return smallest_space / 2 + 2 * definitions_ + 1024 * topics + chunks * (128 + 16 * topics);
 }
 
@@ -138,6 +145,14 @@ void BagWriter::reserve(std::uint64_t message_length) {
   if (problem == EFBIG) throw BagError("bag '" + path_ + "' has reached the limit on the size of files (ulimit -f)");
   if (problem == ENOSPC || problem == EDQUOT) throw BagError("the disk is full, which bag '" + path_ + "' lies on");
   can_reserve_ = false;
+}
+
+void BagWriter::keep() {
+  guarded([this] {
+    bag_->setChunkThreshold(bag_->getChunkThreshold());  // which ends the chunk in progress
+    std::fflush(nullptr);                                // its index too: the bag's own stream cannot be reached
+    ++kept_;
+  });
 }
 
 void BagWriter::finish() {

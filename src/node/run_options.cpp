@@ -76,6 +76,8 @@ RunOptions read_command_line(int argc, char** argv) {
       ->type_name("DEVICE");
   app.add_option("--restore", options.restore, "go on from this snapshot of the same case")->type_name("FILE");
   app.add_option("--save", options.save, "write a snapshot when the run ends")->type_name("FILE");
+  const CLI::Option* const save_every =
+      app.add_option("--save-every", options.save_every, "write it each time that so much more is simulated, too, s")->type_name("S");
   app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");
   app.add_flag("--quiet,-q", options.quiet, "print nothing but warnings and errors");
   app.add_flag("--check", check, "read and lay out the case, report sizes, masses, draughts and the estimated time, run nothing");
@@ -108,6 +110,9 @@ RunOptions read_command_line(int argc, char** argv) {
   if (vtk->count() > 0 && options.vtk.empty()) throw Error("--vtk: the folder has no name");
   if (vtk_rate->count() > 0 && options.vtk.empty()) throw Error("--vtk-rate needs --vtk DIR, whose frames it is the rate of");
   if (!(options.vtk_rate > 0 && options.vtk_rate <= 1e6)) throw Error("--vtk-rate must be greater than 0 and at most 1000000 Hz");
+  if (save_every->count() > 0 && options.save.empty()) throw Error("--save-every needs --save FILE, the snapshot that it writes");
+  if (save_every->count() > 0 && !(options.save_every >= 1e-6 && options.save_every <= 1e15))
+    throw Error("--save-every must be from 0.000001 to 1e15 s of simulated time");
   if (options.surface && options.bag.empty() && options.vtk.empty()) throw Error("--surface needs --bag FILE or --vtk DIR to write it to");
   if (options.surface && !can_find_surface()) throw Error(std::string("--surface: ") + why_no_surface);
   if (!duration.empty()) options.overrides.push_back({"duration", duration});

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
       case RunOptions::Action::run:
         return run(options);
       case RunOptions::Action::nothing:
+        finish_printing();
         return 0;
     }
   } catch (const std::exception& error) {

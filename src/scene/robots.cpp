@@ -7,6 +7,7 @@
 #include "text_file.h"
 #include "values.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/visible_text.h"
 #include "wavetank/scene/file_path.h"
 
 namespace wavetank::scene {
@@ -21,7 +22,7 @@ struct Description {
 Description find_description(const RobotCase& robot, const Case& read, const Surroundings& surroundings) {
   if (robot.urdf.empty()) {
     if (!surroundings.parameter) {
-      throw Error("only a node has ROS parameters such as '" + robot.parameter +
+      throw Error("only a node has ROS parameters such as '" + visible_text(robot.parameter) +
                   "'; give the robot's file as urdf instead, or run the case with wavetank_node");
     }
     return {surroundings.parameter(robot.parameter), "parameter " + robot.parameter, ""};
@@ -83,6 +84,17 @@ void check_commands(const RobotCase& robot, const RobotParts& parts, const Setti
   }
 }
 
+/// What a robot's position and its description place together is what a case can say of a body.
+void check_places(const RobotParts& parts, const Setting& root, const std::string& path) {
+  constexpr double greatest = 1e15;  // m, of any number of a case
+  for (const BodyCase& body : parts.bodies) {
+    const auto* mesh = std::get_if<MeshSource>(&body.shape);
+    if (mesh == nullptr || mesh->translation.cwiseAbs().maxCoeff() <= greatest) continue;
+    throw Error(nearest_setting(root, path).place.describe() + ": " + path + " puts the link '" + body.name +
+                "' further than 1e15 m from the origin");
+  }
+}
+
 }  // namespace
 
 void build_robots(Case& read, const Setting& root, const Surroundings& surroundings) {
@@ -97,6 +109,7 @@ void build_robots(Case& read, const Setting& root, const Surroundings& surroundi
     }
     const RobotParts parts = robot_parts(description.text, description.source, description.directory, robot);
     check_commands(robot, parts, root, join_path(join_path("robots", i), "commands"));
+    check_places(parts, root, join_path(join_path("robots", i), "position"));
     add_parts(parts, description.source, read);
   }
   read.robots.clear();

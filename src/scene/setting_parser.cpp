@@ -1,6 +1,8 @@
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "setting.h"
 #include "wavetank/common/error.h"
@@ -85,6 +87,47 @@ class Converter {
   std::size_t count_ = 0;
 };
 
+/// Counts documents, and takes no more than one. LoadAll would find documents without end where one begins with a comma or a bracket that
+/// closes: the parser takes none of them, and begins the next document there.
+class DocumentCounter : public YAML::EventHandler {
+ public:
+  explicit DocumentCounter(const Converter& converter) : converter_(converter) {}
+
+  int count() const { return count_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++count_ == 1) {
+      begin_ = mark.pos;
+      return;
+    }
+    const std::string place = converter_.place(mark.line).describe();
+    if (mark.pos == begin_) throw Error(place + ": not valid YAML: nothing can begin with a comma or a closing bracket");
+    throw Error(place + ": a second YAML document begins; a case is one document");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+ private:
+  const Converter& converter_;
+  int count_ = 0, begin_ = 0;
+};
+
+/// None is an empty text. Throws Error for more than one.
+bool has_document(const std::string& yaml, const Converter& converter) {
+  std::istringstream stream(yaml);
+  YAML::Parser parser(stream);
+  DocumentCounter documents(converter);
+  while (parser.HandleNextDocument(documents)) {
+  }
+  return documents.count() > 0;
+}
+
 }  // namespace
 
 Setting parse_settings(const std::string& yaml, const std::string& source) {
@@ -92,12 +135,8 @@ Setting parse_settings(const std::string& yaml, const std::string& source) {
   const std::size_t first_line_end = yaml.find('\n');
   Converter converter(source, first_line_end != std::string::npos && first_line_end + 1 < yaml.size());
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
-    if (documents.empty()) return Setting{Setting::Kind::null, "", false, {}, {}, converter.place(0)};
-    if (documents.size() > 1) {
-      throw Error(converter.place(documents[1].Mark().line).describe() + ": a second YAML document begins; a case is one document");
-    }
-    return converter.convert(documents.front());
+    if (!has_document(yaml, converter)) return Setting{Setting::Kind::null, "", false, {}, {}, converter.place(0)};
+    return converter.convert(YAML::Load(yaml));
   } catch (const YAML::Exception& exception) {
     throw Error(converter.place(std::max(exception.mark.line, 0)).describe() + ": not valid YAML: " + exception.msg);
   }

@@ -163,7 +163,7 @@ class Kinds {
       given.push_back({key, value});
     }
     std::vector<std::string> places = places_;
-    for (const Override& each : given) places.push_back(visible_text(each.key));  // as it is printed
+    for (const Override& each : given) places.push_back(visible_text(each.key.substr(0, 60)));  // as it is printed, cut where it is long
     return {"case.yaml", mutation.one_of(small_cases_),
             [path, given] {
               lay_out_and_look(read_case_file(path, given, {resolve, {}}));

@@ -379,6 +379,41 @@ TEST_F(MeshReader, KeepsPartsThroughTheReadersProcess) {
   EXPECT_EQ(part->triangles[0][2], Vector3d(0, 1, 0));
 }
 
+/// A glTF whose vertices lie in another file: `count` of them are said to be there, in `bytes` of it.
+std::string gltf(const std::string& buffer, std::size_t bytes, std::size_t count) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+         std::to_string(count) + R"(,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],"bufferViews":[{"buffer":0,"byteLength":)" +
+         std::to_string(bytes) + R"(}],"buffers":[{"uri":")" + buffer + R"(","byteLength":)" + std::to_string(bytes) + "}]}";
+}
+
+TEST_F(MeshReader, GivesAFileRoomForAnotherThatItNames) {
+  constexpr std::size_t triangles = 200000;  // of 7 MB, beside a text of 400 bytes
+  std::string bytes;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const float x = 1e-5f * static_cast<float>(t), corners[9] = {x, 0, 0, x, 1, 0, x, 0, 1};
+    bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  }
+  write("many.bin", bytes);
+  const TriangleMesh mesh = read(source(write("many.gltf", gltf("many.bin", bytes.size(), 3 * triangles))));
+  EXPECT_EQ(mesh.triangles.size(), triangles);
+}
+
+TEST_F(MeshReader, RefusesAGltfWhoseNumbersDoNotFit) {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
+  write("few.bin", bytes);
+  EXPECT_EQ(read(source(write("sound.gltf", gltf("few.bin", bytes.size(), 3)))).triangles.size(), 1u);
+  for (const auto& [name, text] : {std::pair<std::string, std::string>{"count.gltf", gltf("few.bin", bytes.size(), 4000000000u)},
+                                   {"length.gltf", gltf("few.bin", 36000000, 3000000)},
+                                   {"missing.gltf", gltf("none.bin", bytes.size(), 3)},
+                                   {"device.gltf", gltf("/dev/zero", 3600, 300)}}) {
+    const std::string said = error_of([&, text = text, name = name] { read(source(write(name, text))); });
+    EXPECT_NE(said.find(name), std::string::npos) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
 TEST_F(MeshReader, RefusesAFaceOfTooManyCorners) {
   std::string obj, face = "f";
   for (int k = 1; k <= 5000; ++k) {

@@ -5,10 +5,15 @@
 #include <std_msgs/String.h>
 #include <sys/stat.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <filesystem>
+#include <thread>
+#include <vector>
 
 #include "../common/error_of.h"
 #include "../common/scratch_directory.h"
+#include "wavetank/common/log.h"
 
 namespace wavetank::bag_writer_test {
 
@@ -71,6 +76,59 @@ TEST_F(BagWriterTest, KeepsWhatLiesAtItsTemporaryName) {
   EXPECT_EQ(fs::file_size(path("a.bag.1.active")), 10u);
   EXPECT_FALSE(fs::exists(path("a.bag.active")));
   EXPECT_EQ(rosbag::View(rosbag::Bag(path("a.bag"))).size(), 1u);
+}
+
+/// Several begin at the same moment, and a run that died has left its bag: one of them has the bag, and the others are told so.
+TEST_F(BagWriterTest, IsMadeByOneOfThoseThatBeginAtOnce) {
+  set_log_sink([](LogLevel, const std::string&) {});
+  for (int round = 0; round < 200; ++round) {
+    const std::string name = path("a" + std::to_string(round) + ".bag");
+    scratch_.write("a" + std::to_string(round) + ".bag.active", "of a run that died");
+    constexpr int count = 4;
+    std::vector<std::unique_ptr<BagWriter>> writers(count);
+    std::vector<std::string> errors(count);
+    std::atomic<int> ready = 0;
+    std::vector<std::thread> threads;
+    for (int k = 0; k < count; ++k)
+      threads.emplace_back([&, k] {
+        ++ready;
+        while (ready < count) std::this_thread::yield();
+        try {
+          writers[k] = std::make_unique<BagWriter>(name, "/wavetank");
+        } catch (const Error& error) {
+          errors[k] = error.what();
+        }
+      });
+    for (std::thread& thread : threads) thread.join();
+    int made = 0;
+    for (int k = 0; k < count; ++k) {
+      if (!writers[k]) {
+        EXPECT_NE(errors[k].find("another process is writing it"), std::string::npos) << errors[k];
+        continue;
+      }
+      ++made;
+      writers[k]->write("note", ros::Time(0.5), text("hello"));
+      EXPECT_NO_THROW(writers[k]->finish());
+    }
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(rosbag::View(rosbag::Bag(name)).size(), 1u);
+    EXPECT_EQ(fs::file_size(path("a" + std::to_string(round) + ".bag.1.active")), 18u);
+    EXPECT_FALSE(fs::exists(name + ".active") || fs::exists(path("a" + std::to_string(round) + ".bag.2.active"))) << "round " << round;
+    if (HasFailure()) break;
+  }
+  set_log_sink(nullptr);
+}
+
+TEST_F(BagWriterTest, KeepsWhatIsWrittenThoughItIsNotFinished) {
+  BagWriter writer(path("a.bag"), "/wavetank");
+  for (int k = 1; k < 100; ++k) writer.write("note", ros::Time(k), text("hello"));
+  writer.keep();
+  fs::copy_file(path("a.bag.active"), path("died.bag"));
+  writer.write("note", ros::Time(100), text("hello"));
+  ASSERT_EQ(std::system(("rosbag reindex --quiet " + path("died.bag") + " > /dev/null").c_str()), 0);
+  EXPECT_EQ(rosbag::View(rosbag::Bag(path("died.bag"))).size(), 99u);
+  writer.finish();
+  EXPECT_EQ(rosbag::View(rosbag::Bag(path("a.bag"))).size(), 100u);
 }
 
 TEST_F(BagWriterTest, LeavesAWholeBagUnderItsTemporaryNameWhereAnotherThingTookItsPlace) {

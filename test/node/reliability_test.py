@@ -2,15 +2,20 @@
 """docs/reliability.md, by wavetank_run: no input ends it by a signal or makes it wait, and no run takes what another one has made."""
 
 import os
+import random
 import signal
 import struct
 import subprocess
+import sys
 import time
 
 import rosbag
 
 import program_runner
 from program_runner import ProgramTest, interrupt, read_line_with
+
+sys.path.insert(0, os.path.join(program_runner.PACKAGE, "test", "validation"))
+import kills
 
 BOX = {"name": "box", "box": {"min": [0.1, -0.1, 0.18], "max": [0.2, 0.1, 0.25]}, "motion": "free", "density": 500.0}
 
@@ -108,7 +113,9 @@ class Starts(ReliabilityTest):
         endless = {"name": "box", "box": {"min": [0.1, -0.1, 0.05], "max": [0.2, 0.1, 1e9]}}
         begin = time.time()
         self.both_refuse(self.case(bodies=[endless], instruments__pressure_probes=[]), "body 'box'", "1e+09")
-        self.assertLess(time.time() - begin, 4, "of two programs, on a busy machine")
+        section = {"name": "wide", "centre": [0.3, 0, 0.2], "normal": [1, 0, 0], "size": [0, 1e15]}
+        self.both_refuse(self.case(instruments__sections=[section]), "section 'wide'", "5e+16 cells")
+        self.assertLess(time.time() - begin, 8, "of four programs, on a busy machine")
 
 
 class OtherRuns(ReliabilityTest):
@@ -154,6 +161,14 @@ class Ends(ReliabilityTest):
         self.assertTrue(os.path.exists(self.path("out.snapshot")))
         run.stdout = open(os.devnull)
 
+    def test_an_output_that_takes_nothing_is_a_sentence(self):
+        case = self.case()
+        for arguments in (["--check", case], ["--schedule", case], ["--list-devices"], ["--help"], ["--version"]):
+            with self.subTest(arguments[0]), open("/dev/full", "w") as full:
+                done = subprocess.run([program_runner.PROGRAM, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, universal_newlines=True)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.stderr, "wavetank_run: standard output does not take all of what is printed: No space left on device\n")
+
     def test_hangup_sigterm_and_the_processor_limit_end_it_as_ctrl_c_does(self):
         for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGXCPU):
             with self.subTest(number=number):
@@ -184,6 +199,27 @@ class Ends(ReliabilityTest):
         run.send_signal(signal.SIGHUP)
         self.assertEqual(run.wait(timeout=60), 0, run.stderr.read())
         self.assertEqual(self.assert_whole(), 301)
+
+
+class KilledRuns(ReliabilityTest):
+    def test_what_is_left_at_three_moments(self):
+        """scripts/validate kills takes fifty."""
+        seed = int(time.time())
+        moments = random.Random(seed)
+        runs = kills.Kills(program_runner.PROGRAM, self.path("runs"), duration=0.4)
+        for _ in range(3):
+            moment = runs.seconds * moments.uniform(0.4, 1)
+            with self.subTest("seed %d, killed after %.3f s" % (seed, moment)):
+                runs.kill_at(moment)
+
+    def test_a_snapshot_on_the_way_that_cannot_be_written_ends_nothing(self):
+        disk = self.small_disk("64k")
+        with open(os.path.join(disk, "filler"), "w") as filler:
+            filler.write("x" * 60000)
+        done = self.run_program(self.case(), "--save", os.path.join(disk, "a.snapshot"), "--save-every", "0.01")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("tries again at the next snapshot"), 1, done.stderr)
+        self.assertIn("it is in '%s' instead" % self.path("a.snapshot"), done.stderr)
 
 
 class Meshes(ReliabilityTest):

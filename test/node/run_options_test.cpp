@@ -20,14 +20,16 @@ RunOptions read(std::vector<std::string> arguments) {
 }  // namespace
 
 TEST(RunOptions, ReadsEverything) {
-  const RunOptions options = read({"a.yaml", "--bag", "b.bag", "--clouds", "--set", "fluid/spacing=0.02", "--set", "title=a=b",
-                                   "--duration", "2.5", "--device", "0:1", "--restore", "r", "--save", "s", "--profile", "--quiet"});
+  const RunOptions options = read(
+      {"a.yaml", "--bag",     "b.bag", "--clouds", "--set", "fluid/spacing=0.02", "--set", "title=a=b", "--duration", "2.5", "--device",
+       "0:1",    "--restore", "r",     "--save",   "s",     "--save-every",       "0.5",   "--profile", "--quiet"});
   EXPECT_EQ(options.action, RunOptions::Action::run);
   EXPECT_EQ(options.case_file, "a.yaml");
   EXPECT_EQ(options.bag, "b.bag");
   EXPECT_TRUE(options.clouds && options.profile && options.quiet);
   EXPECT_EQ(options.restore, "r");
   EXPECT_EQ(options.save, "s");
+  EXPECT_EQ(options.save_every, 0.5);
   ASSERT_EQ(options.overrides.size(), 4U);
   EXPECT_EQ(options.overrides[0].key, "fluid/spacing");
   EXPECT_EQ(options.overrides[0].value, "0.02");
@@ -57,6 +59,9 @@ TEST(RunOptions, ChooseTheAction) {
 TEST(RunOptions, RefuseWhatMakesNoSense) {
   EXPECT_THROW(read({}), Error);
   EXPECT_THROW(read({"a.yaml", "--nonsense"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--save-every", "1"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--save", "s", "--save-every", "0"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--save", "s", "--save-every", "nan"}), Error);
   EXPECT_THROW(read({"a.yaml", "--set", "duration"}), Error);
   EXPECT_THROW(read({"a.yaml", "--clouds"}), Error);
   EXPECT_THROW(read({"a.yaml", "--particles"}), Error);

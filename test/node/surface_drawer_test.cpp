@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -47,6 +48,47 @@ TEST(SurfaceDrawer, ASurfaceHasTheStampThatItWasBegunWith) {
   clock.restart_after(7.5);  // before it is done
   drawer.wait();
   EXPECT_EQ(stamps, std::vector<ros::Time>{ros::Time(0)});
+}
+
+/// A node's simulation goes back to time 0 while its drawer's thread finds the surface of what was.
+TEST(SurfaceDrawer, AResetMeanwhileChangesNothingOfWhatIsDrawn) {
+  if (!can_find_surface()) GTEST_SKIP() << why_no_surface;
+  Case scene = small_tank();
+  std::get<Box>(scene.fluid.fill[0]).max.x() = 0.2;  // so that it flows
+  Simulation simulation(scene);
+  while (simulation.state().time < 0.03) simulation.advance();
+  const WaterSurface wanted = [&] {
+    const SurfaceFinder finder(simulation);
+    return finder.find(finder.look_at(simulation));
+  }();
+  std::vector<WaterSurface> drawn;
+  std::vector<ros::Time> stamps;
+  SurfaceDrawer drawer([&](const WaterSurface& surface, const ros::Time& stamp) {
+    drawn.push_back(surface);
+    stamps.push_back(stamp);
+  });
+  for (int round = 0; round < 5; ++round) {
+    drawer.draw(simulation, ros::Time(1));
+    simulation.reset();
+    while (simulation.state().time < 0.03) simulation.advance();
+  }
+  drawer.wait();
+  ASSERT_EQ(drawn.size(), 5u);
+  for (const WaterSurface& surface : drawn) {
+    EXPECT_EQ(surface.vertices, wanted.vertices);
+    EXPECT_EQ(surface.triangles, wanted.triangles);
+    EXPECT_EQ(surface.time, wanted.time);
+  }
+
+  drawer.draw(simulation, ros::Time(2));
+  drawer.drop();  // as the node does at a reset
+  simulation.reset();
+  drawer.draw(simulation, ros::Time(3));
+  drawer.wait();
+  ASSERT_FALSE(drawn.empty());
+  EXPECT_EQ(stamps.back(), ros::Time(3));
+  EXPECT_EQ(drawn.back().time, 0);
+  EXPECT_EQ(std::count(stamps.begin(), stamps.end(), ros::Time(2)), 0) << "the surface of before the reset came after it";
 }
 
 }  // namespace

@@ -384,4 +384,12 @@ TEST(BrokenOverrides, NameTheOption) {
                        "--set numerics/walls/slip: numerics/walls is 3 (case.yaml:16), which is not a map of keys"));
 }
 
+/// The parser takes nothing of these, and would find one document after the other there.
+TEST(CaseText, ThatBeginsWithWhatCannotBeginIsRefused) {
+  for (const char* text : {", mass\n", "# a comment\n\n, b: 2\n", "]\n", "}: 1\n"}) {
+    const std::string message = error_of(text);
+    EXPECT_TRUE(contains(message, "case.yaml:") && contains(message, "not valid YAML")) << text << message;
+  }
+}
+
 }  // namespace wavetank::case_errors_test

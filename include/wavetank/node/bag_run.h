@@ -41,6 +41,7 @@ class BagRun {
   void cut_short(const Error& full);
   RunState run_state(std::uint8_t phase) const;
   std::string failure_snapshot() const;
+  void save_when_due();
   void save_violation();
   void save_what_is_left();
   void save_at_end();
@@ -67,6 +68,8 @@ class BagRun {
   std::string cut_short_;     ///< why bag, files or snapshot are not as they were asked for, and where they are; empty = they are
   std::string save_problem_;  ///< why the snapshot is not where it was wanted
   bool bag_is_whole_ = false;
+  double next_save_ = 0;  ///< s of simulated time, of --save-every
+  bool told_of_save_ = false;
 };
 
 }  // namespace wavetank

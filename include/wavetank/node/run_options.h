@@ -22,6 +22,7 @@ struct RunOptions {
   double vtk_rate = 20;             ///< Hz of simulated time, of those files
   std::string restore;              ///< empty = start at time 0
   std::string save;                 ///< empty = no snapshot at the end
+  double save_every = 0;            ///< s of simulated time between snapshots on the way; 0 = none
   bool profile = false;
   bool quiet = false;
 };

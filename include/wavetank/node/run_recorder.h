@@ -40,6 +40,8 @@ class RunRecorder {
   /// written when it is found. `run`: of this moment. Throws BagError as BagWriter, and where a surface cannot be drawn: the bag is whole
   /// until then, and finish() still works.
   void record(const Simulation& simulation, const std::vector<EnergySample>& energies, const RunState& run);
+  /// What was recorded until now stays readable, whatever becomes of this process. Throws BagError as BagWriter.
+  void keep() { bag_.keep(); }
   /// No surface from now on: the water is no longer fit for one, after a Violation.
   void draw_no_more() { is_drawing_ = false; }
   /// The simulation is back at time 0.
