@@ -154,7 +154,10 @@ std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& 
       std::vector<std::vector<Real>> values;
       for (std::size_t part = 0; part < parts.size(); ++part)
         values.push_back(given[part].get<Real>(block_of(row, component), ids[part].size()));
-      blocks.put(block_of(row, component), in_order(values));
+      std::vector<Real> all = in_order(values);
+      // those of a scheme whose steps do not begin with them are in the order of before the sort
+      if (row.array == ParticleArray::rates && case_.numerics.integrator != Integrator::symplectic) std::fill(all.begin(), all.end(), Real(0));
+      blocks.put(block_of(row, component), all);
     }
   }
   for (const char* of_all : {next_id_block, step_block, lists_block, guard_block}) blocks.put(of_all, given[0].get<double>(of_all));
