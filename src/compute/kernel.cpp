@@ -9,13 +9,7 @@ namespace {
 
 /// Work-group sizes of launch(). They are the same for every launch of a kernel, since a CPU driver compiles a kernel anew for each size.
 constexpr std::size_t cpu_group_size = 64;
-constexpr std::size_t large_cpu_group_size = 1;  // of Items::large
 constexpr std::size_t gpu_group_size = 128;
-
-std::size_t usual_group_size(const DeviceInfo& info, Items items) {
-  if (info.is_gpu) return gpu_group_size;
-  return items == Items::large ? large_cpu_group_size : cpu_group_size;
-}
 
 std::string argument_text(unsigned count) { return std::to_string(count) + (count == 1 ? " argument" : " arguments"); }
 
@@ -31,8 +25,7 @@ std::string kernel_names(cl_program program) {
 
 }  // namespace
 
-Kernel::State::State(std::shared_ptr<Program::State> of, const std::string& kernel_name, Items how_large)
-    : program(std::move(of)), name(kernel_name), items(how_large) {}
+Kernel::State::State(std::shared_ptr<Program::State> of, const std::string& kernel_name) : program(std::move(of)), name(kernel_name) {}
 
 void Kernel::State::prepare() {
   if (handle != nullptr) return;
@@ -52,7 +45,7 @@ void Kernel::State::prepare() {
   if (clGetKernelWorkGroupInfo(handle, device, CL_KERNEL_WORK_GROUP_SIZE, sizeof max_group_size, &max_group_size, nullptr) != CL_SUCCESS ||
       max_group_size == 0)
     max_group_size = std::max<std::size_t>(1, info().max_work_group);
-  group_size = required[0] != 0 ? required[0] : std::min(usual_group_size(info(), items), max_group_size);
+  group_size = required[0] != 0 ? required[0] : std::min(info().is_gpu ? gpu_group_size : cpu_group_size, max_group_size);
 }
 
 Kernel::State::~State() {

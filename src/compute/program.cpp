@@ -118,10 +118,10 @@ Program::Program(const Device& device, const SourceFiles& files, const std::stri
   if (when == Build::now) state_->built();
 }
 
-Kernel Program::kernel(const std::string& name, Items items) const {
+Kernel Program::kernel(const std::string& name) const {
   if (!state_) throw Error("the kernel " + name + " was asked of a program that has not been built");
   Kernel kernel;
-  kernel.state_ = std::make_shared<Kernel::State>(state_, name, items);
+  kernel.state_ = std::make_shared<Kernel::State>(state_, name);
   if (state_->is_built()) kernel.state_->prepare();
   return kernel;
 }

@@ -35,7 +35,7 @@ struct Program::State {
 };
 
 struct Kernel::State {
-  State(std::shared_ptr<Program::State> of, const std::string& kernel_name, Items items);
+  State(std::shared_ptr<Program::State> of, const std::string& kernel_name);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -49,7 +49,6 @@ struct Kernel::State {
 
   std::shared_ptr<Program::State> program;
   std::string name;
-  Items items;
   cl_kernel handle = nullptr;
   cl_uint argument_count = 0;
   std::size_t group_size = 1;      ///< of launch()

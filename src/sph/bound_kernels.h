@@ -27,12 +27,11 @@ class KernelMaker {
 
   /// Built without fast-math.
   compute::BoundKernel exact(const std::string& file, const std::string& name, const compute::Arguments& arguments) const {
-    return {kernel(file, name, options_, compute::Items::small), arguments};
+    return {kernel(file, name, options_), arguments};
   }
   /// A sweep over particles that lie together, in the tiles that suit the device.
   BoundSweep over_particles(const std::string& file, const std::string& name, const compute::Arguments& arguments) const {
-    return {{kernel(file, name, options_ + fast + tiling_.particles.build_options(), compute::Items::large), arguments},
-            tiling_.particles.own};
+    return {{kernel(file, name, options_ + fast + tiling_.particles.build_options()), arguments}, tiling_.particles.own};
   }
   /// Likewise, but an item is a run of slots, not a tile.
   BoundSweep over_runs(const std::string& file, const std::string& name, const compute::Arguments& arguments) const {
@@ -42,18 +41,18 @@ class KernelMaker {
   BoundSweep over_points(const std::string& file, const std::string& name, const compute::Arguments& arguments,
                          const BuildOptions& own = {}) const {
     const std::string more = own.empty() ? "" : " " + text_of(own);
-    return {{kernel(file, name, options_ + more + fast + tiling_.points.build_options(), compute::Items::large), arguments}, 1};
+    return {{kernel(file, name, options_ + more + fast + tiling_.points.build_options()), arguments}, 1};
   }
 
  private:
   static constexpr const char* fast = " -cl-fast-relaxed-math";
 
-  compute::Kernel kernel(const std::string& file, const std::string& name, const std::string& options, compute::Items items) const {
+  compute::Kernel kernel(const std::string& file, const std::string& name, const std::string& options) const {
     const std::pair<std::string, std::string> key(file, options);
     auto program = programs_.find(key);
     if (program == programs_.end())
       program = programs_.emplace(key, compute::Program(device_, files_, file, options, compute::Build::at_first_use)).first;
-    return program->second.kernel(name, items);
+    return program->second.kernel(name);
   }
 
   compute::Device device_;

@@ -65,11 +65,6 @@ class Kernel {
   std::shared_ptr<State> state_;
 };
 
-/// How much a work-item of a kernel does, which says how many of them a CPU's work-group has. What goes through neighbours is large: an
-/// item by itself is enough for a group, and the driver's compiler, which has no loop over a group's items to make, is done in three
-/// quarters of the time.
-enum class Items { small, large };
-
 /// When a program's kernels are compiled.
 enum class Build { now, at_first_use };
 
@@ -84,7 +79,7 @@ class Program {
   /// A build error throws Error with the compiler's message and the offending source line.
   Program(const Device& device, const SourceFiles& files, const std::string& main, const std::string& options, Build when = Build::now);
   /// Throws Error if the program has no kernel of that name: at once, or, where it is built at its first use, then.
-  Kernel kernel(const std::string& name, Items items = Items::small) const;
+  Kernel kernel(const std::string& name) const;
 
  private:
   friend class Kernel;
