@@ -71,7 +71,6 @@ void SphSolver<Real>::run_with_exchanges() {
       if (stage.sweeps && part_->carries(access.array)) spoil(access.array.c_str());
     stage.run();
     for (const Access& access : part_->exchanges[k]) {
-      if (access.array == "walls" || access.array == "wrenches") continue;  // no values of particles
       if (!part_->carries(access.array))
         throw Error("stage '" + stage.name + "' finds the " + access.array + " of a part's own particles, which the parts do not exchange");
       refresh(access.array.c_str());

@@ -113,7 +113,8 @@ std::vector<std::vector<Access>> Schedule::exchanges() const {
       }
       std::vector<Access> made;
       for (const Access& access : stage.writes)
-        if (wanted.erase(access) > 0) made.push_back(access);
+        if (wanted.erase(access) > 0 && access.array != "walls" && access.array != "wrenches")  // which are not of particles
+          made.push_back(access);
       if (stage.sweeps) result[k] = made;
       if (stage.sweeps || !made.empty()) wanted.insert(stage.reads.begin(), stage.reads.end());
     }
