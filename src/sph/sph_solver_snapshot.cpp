@@ -156,7 +156,8 @@ std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& 
         values.push_back(given[part].get<Real>(block_of(row, component), ids[part].size()));
       std::vector<Real> all = in_order(values);
       // those of a scheme whose steps do not begin with them are in the order of before the sort
-      if (row.array == ParticleArray::rates && case_.numerics.integrator != Integrator::symplectic) std::fill(all.begin(), all.end(), Real(0));
+      if (row.array == ParticleArray::rates && case_.numerics.integrator != Integrator::symplectic)
+        std::fill(all.begin(), all.end(), Real(0));
       blocks.put(block_of(row, component), all);
     }
   }
