@@ -79,7 +79,7 @@ Opening::Column part_of_cell(const Opening& opening, int i, int j) {
 
 /// Columns of about a cell; slivers at the edge of the outline go to the fullest cell beside them, on their side of the level.
 void set_columns(const std::function<bool(const Vector3d&)>& is_high, Opening& opening) {
-  const auto [across, up] = opening.cells;
+  const int across = opening.cells[0], up = opening.cells[1];  // C++17 captures no names of structured bindings
   std::vector<Opening::Column> parts;
   for (int j = 0; j < up; ++j)
     for (int i = 0; i < across; ++i) parts.push_back(part_of_cell(opening, i, j));

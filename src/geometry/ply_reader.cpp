@@ -252,6 +252,7 @@ class PlyReader {
       fail("face " + std::to_string(which) + " has " + std::to_string(indices.size()) + " corners; " + std::to_string(most_corners) +
            " at most are allowed");
     std::vector<Vector3d> corners;
+    corners.reserve(indices.size());
     for (const int index : indices) corners.push_back(mesh_.vertices[index]);
     const std::vector<Vector3i> triangles = triangulate(corners, &comparisons_);
     if (comparisons_ == 0)

@@ -34,7 +34,9 @@ std::vector<WaterColumn> water_columns(const Layout& layout) {
         .emplace_back(up.dot(layout.particles[i]), layout.levels[i]);
   }
   std::vector<WaterColumn> columns;
-  for (auto& [place, particles] : heights) {
+  for (auto& column : heights) {
+    const std::array<int, 2>& place = column.first;
+    std::vector<std::pair<double, double>>& particles = column.second;  // by name: C++17 captures no structured bindings
     std::sort(particles.begin(), particles.end());
     for (std::size_t begin = 0; begin < particles.size();) {
       std::size_t end = begin + 1;
