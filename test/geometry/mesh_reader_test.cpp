@@ -387,18 +387,6 @@ std::string gltf(const std::string& buffer, std::size_t bytes, std::size_t count
          std::to_string(bytes) + R"(}],"buffers":[{"uri":")" + buffer + R"(","byteLength":)" + std::to_string(bytes) + "}]}";
 }
 
-TEST_F(MeshReader, GivesAFileRoomForAnotherThatItNames) {
-  constexpr std::size_t triangles = 200000;  // of 7 MB, beside a text of 400 bytes
-  std::string bytes;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const float x = 1e-5f * static_cast<float>(t), corners[9] = {x, 0, 0, x, 1, 0, x, 0, 1};
-    bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
-  }
-  write("many.bin", bytes);
-  const TriangleMesh mesh = read(source(write("many.gltf", gltf("many.bin", bytes.size(), 3 * triangles))));
-  EXPECT_EQ(mesh.triangles.size(), triangles);
-}
-
 TEST_F(MeshReader, RefusesAGltfWhoseNumbersDoNotFit) {
   const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
