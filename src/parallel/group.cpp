@@ -28,12 +28,18 @@ struct Round {
 }  // namespace
 
 struct ThreadGroup::Shared {
-  explicit Shared(int members) : size(members), boxes(static_cast<std::size_t>(members) * members) {}
+  Shared(int members, bool in_turns) : size(members), takes_turns(in_turns), boxes(static_cast<std::size_t>(members) * members) {}
 
   /// Waits, with the lock held, for something that another part does.
   template <class Condition>
   void wait(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+    if (takes_turns) turn.unlock();
     changed.wait(lock, [&] { return failed || condition(); });
+    if (takes_turns) {  // whoever has the turn may want the lock
+      lock.unlock();
+      turn.lock();
+      lock.lock();
+    }
     if (!condition()) throw Stopped();
   }
 
@@ -65,6 +71,8 @@ struct ThreadGroup::Shared {
   }
 
   int size;
+  bool takes_turns;
+  std::mutex turn;  ///< of the part that runs, if they take turns
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::deque<Bytes>> boxes;  ///< by receiver, then sender
@@ -107,7 +115,7 @@ class ThreadGroup::Member final : public Group {
   int rank_;
 };
 
-ThreadGroup::ThreadGroup(int size) : shared_(std::make_unique<Shared>(size)) {
+ThreadGroup::ThreadGroup(int size, bool takes_turns) : shared_(std::make_unique<Shared>(size, takes_turns)) {
   for (int rank = 0; rank < size; ++rank) members_.push_back(std::make_unique<Member>(*shared_, rank));
 }
 
@@ -119,6 +127,8 @@ Group& ThreadGroup::member(int rank) { return *members_.at(rank); }
 
 void ThreadGroup::run(const std::function<void(int)>& work) {
   const auto guarded = [&](int rank) {
+    std::unique_lock<std::mutex> turn(shared_->turn, std::defer_lock);
+    if (shared_->takes_turns) turn.lock();
     try {
       work(rank);
     } catch (...) {

@@ -47,7 +47,7 @@ class PartedSolver final : public Solver {
   PartedSolver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout, const Discretisation& discretisation,
                const std::vector<Eigen::Vector3d>& centres, const PartedSolverOptions& options)
       : options_(options),
-        group_(static_cast<int>(devices.size())),
+        group_(static_cast<int>(devices.size()), options.takes_turns),
         whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
         parting_(parting_for(discretisation, layout.particles.size())) {
     Layout dry = layout;

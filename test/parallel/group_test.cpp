@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "../common/error_of.h"
 #include "wavetank/common/error.h"
@@ -53,6 +57,27 @@ TEST(Group, OneThatFailsStopsThoseThatWait) {
             "out of memory");
   // and then they can go on
   threads.run([&](int rank) { EXPECT_EQ(threads.member(rank).sums({1})[0], 3); });
+}
+
+TEST(Group, ThatTakesTurnsRunsOneAtATime) {
+  ThreadGroup threads(3, true);
+  std::atomic<int> running{0}, most{0};
+  const auto alone = [&] {
+    most = std::max(most.load(), ++running);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --running;
+  };
+  threads.run([&](int rank) {
+    Group& group = threads.member(rank);
+    for (int round = 0; round < 5; ++round) {
+      alone();
+      group.send((rank + 1) % 3, {static_cast<char>(round)});
+      EXPECT_EQ(group.receive((rank + 2) % 3), Bytes{static_cast<char>(round)});
+      alone();
+      EXPECT_EQ(group.sums({rank}), std::vector<std::int64_t>{3});
+    }
+  });
+  EXPECT_EQ(most, 1);
 }
 
 }  // namespace

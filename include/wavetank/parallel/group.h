@@ -32,7 +32,8 @@ class Group {
 /// Parts that are threads of this process.
 class ThreadGroup {
  public:
-  explicit ThreadGroup(int size);
+  /// `takes_turns`: only one of them runs at a time, until it waits for others, as devices need whose drivers know of one thread alone.
+  explicit ThreadGroup(int size, bool takes_turns = false);
   ~ThreadGroup();
   ThreadGroup(const ThreadGroup&) = delete;
   ThreadGroup& operator=(const ThreadGroup&) = delete;

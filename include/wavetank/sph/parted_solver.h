@@ -9,10 +9,11 @@ namespace wavetank {
 
 /// For tests of the parts themselves.
 struct PartedSolverOptions {
-  int halo_less = 0;    ///< places by which halos are narrower than they must be
-  bool spoils = false;  ///< what a part has not been sent yet of its halo is not a number
-  int cut_every = 0;    ///< steps after which the water is cut anew whatever it costs; 0: when that pays
-  int uneven = 0;       ///< blocks by which the first cut is moved
+  int halo_less = 0;         ///< places by which halos are narrower than they must be
+  bool spoils = false;       ///< what a part has not been sent yet of its halo is not a number
+  int cut_every = 0;         ///< steps after which the water is cut anew whatever it costs; 0: when that pays
+  int uneven = 0;            ///< blocks by which the first cut is moved
+  bool takes_turns = false;  ///< one part runs at a time
 };
 
 /// The water in as many slabs as there are devices, which may be one device several times. Steps are made by all of them; what comes before
