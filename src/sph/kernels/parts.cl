@@ -40,6 +40,15 @@ __kernel void tell_own(__constant const parameters_t* p, int count, int slots, _
   state[FIELD_OWN * stride + i] = own ? R(1.0) : R(0.0);
 }
 
+// Of a row's particles, where the parts are cut across rows.
+INLINE int place_of_row(__constant const parameters_t* p, int row) {
+#if DIMENSIONS == 3
+  return p->part_axis == 1 ? row % p->rows_y : row / p->rows_y;
+#else
+  return row;
+#endif
+}
+
 // The tiles of a row: its own slots, cut into segments, each of whole tiles but for its last. In whatever order the rows come.
 __kernel void list_tiles(__constant const parameters_t* p, int rows, int tile_own, int segment, __global int* starts) {
   const int row = get_global_id(0);
@@ -49,7 +58,7 @@ __kernel void list_tiles(__constant const parameters_t* p, int rows, int tile_ow
     begin = p->own_begin;
     end = p->own_end;
   } else {
-    const int place = p->part_axis == 1 && DIMENSIONS == 3 ? row % p->rows_y : DIMENSIONS == 3 ? row / p->rows_y : row;
+    const int place = place_of_row(p, row);
     if (place < p->own_begin || place >= p->own_end) return;
   }
   __global int* list = starts + TILE_LIST(p);
@@ -77,7 +86,7 @@ __kernel void find_edges(__constant const parameters_t* p, int rows, __global co
   for (int k = 0; k < 4; ++k) {
     int first = row * p->slots_x + bounds[k][0], last = row * p->slots_x + bounds[k][1];
     if (p->part_axis != 0) {
-      const int place = p->part_axis == 1 && DIMENSIONS == 3 ? row % p->rows_y : DIMENSIONS == 3 ? row / p->rows_y : row;
+      const int place = place_of_row(p, row);
       const bool meant = place >= bounds[k][0] && place < bounds[k][1];
       first = row * p->slots_x;
       last = meant ? first + p->slots_x : first;
