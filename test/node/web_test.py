@@ -852,6 +852,29 @@ class MissingPackages(WithBag):
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
 
+# A block of water with spray over it, as all its particles are drawn and as those in sight alone are: whether the pictures are the same, and how many were drawn.
+CLOUD_WITH_AND_WITHOUT_HIDDEN = """
+    const view = wavetank.view, points = new Uint16Array(4 * 30000);
+    let state = 7;
+    const next = () => (state = (state * 48271) % 2147483647) / 2147483647;
+    for (let i = 0; i < points.length; i += 4) {
+      points[i] = 65535 * next();
+      points[i + 1] = 65535 * next();
+      points[i + 2] = 65535 * next() * (next() < 0.01 ? 1 : 0.4);
+      points[i + 3] = 65535 * next();
+    }
+    view.showCloud({ points, low: [0.2, 0.1, 0.1], size: [1.6, 0.8, 0.8], top_speed: 2, typical_speed: 1, poses: null });
+    view.diameter = view.water.material.uniforms.diameter.value = 0.03;
+    const drawn = [true, false].map((slow) => {
+      view.slow = slow;
+      view._fillWater();
+      view.renderer.render(view.scene, view.camera);
+      return [view.canvas.toDataURL(), view.water.geometry.drawRange.count];
+    });
+    view.slow = true;
+    return [drawn[0][0] === drawn[1][0], drawn[1][1], drawn[0][1], points.length / 4];"""
+
+
 @unittest.skipIf(NO_SERVER or MISSING, NO_SERVER or MISSING)
 class InTheBrowser(WithBag):
     def test_a_bag(self):
@@ -878,6 +901,10 @@ class InTheBrowser(WithBag):
         browser.wait("wavetank.time === 0.2")
         self.assertEqual(browser.get("document.querySelector('.plot .values').textContent.trim()").split()[0], "P1")
         self.assertTrue(math.isclose(browser.get("[...wavetank.plots.all.values()][0].row()[1]"), 400.0))
+        same, all_drawn, drawn, given = browser.driver.execute_script(CLOUD_WITH_AND_WITHOUT_HIDDEN)
+        self.assertTrue(same)
+        self.assertEqual(all_drawn, given)
+        self.assertTrue(1000 < drawn < given / 2, drawn)
         self.assertEqual(browser.errors(), [])
         bad = ("wavetank._hear('{')", """wavetank._hear('{"kind": "poses", "poses": {"boat": null}}')""", "wavetank._hear(new ArrayBuffer(2))")
         self.assertEqual(browser.driver.execute_script("const before = wavetank.unseen; %s; return wavetank.unseen - before" % "; ".join(bad)), 3)

@@ -3,6 +3,7 @@
 
     test/validation/page_frame_rate.py [PARTICLES [SECONDS [all]]]  (111000, 10; all: the page leaves none out, however slow it is)"""
 
+import collections
 import os
 import sys
 import tempfile
@@ -30,23 +31,30 @@ def cloud_of(lattice, n):
     return points
 
 
-def processor_time(root):
-    """s, that a process and all that it started have taken."""
-    parents, times = {}, {}
+def processor_times(root):
+    """s, that a process and all that it started have taken, by what they are to the browser."""
+    parents, times, kinds = {}, {}, {}
     for name in os.listdir("/proc"):
         try:
             with open("/proc/%s/stat" % int(name)) as file:
                 fields = file.read().rpartition(")")[2].split()
+            with open("/proc/%s/cmdline" % int(name)) as file:
+                words = file.read().replace("\0", " ").split()
         except (OSError, ValueError):
             continue
         parents[int(name)], times[int(name)] = int(fields[1]), int(fields[11]) + int(fields[12])
+        kinds[int(name)] = next((word[7:] for word in words if word.startswith("--type=")), "browser")
 
     def is_of(process):
         while process and process != root:
             process = parents.get(process)
         return process == root
 
-    return sum(ticks for process, ticks in times.items() if is_of(process)) / os.sysconf("SC_CLK_TCK")
+    taken = collections.Counter()
+    for process, ticks in times.items():
+        if is_of(process):
+            taken[kinds[process]] += ticks / os.sysconf("SC_CLK_TCK")
+    return taken
 
 
 def main():
@@ -88,16 +96,18 @@ def main():
             browser.driver.execute_script(
                 "document.getElementById('speed').value = '4'; setInterval(() => { if (!wavetank.player.playing) wavetank._goTo(wavetank.hello.times[0], true) }, 10)"
             )
-            taken = processor_time(browser.driver.service.process.pid)
+            taken = processor_times(browser.driver.service.process.pid)
             before, since = browser.get("[wavetank.view.frames, wavetank.received]"), time.time()
             time.sleep(seconds)
             after, wall = browser.get("[wavetank.view.frames, wavetank.received]"), time.time() - since
-            taken = processor_time(browser.driver.service.process.pid) - taken
+            taken = processor_times(browser.driver.service.process.pid) - taken
             print("the page says: %s" % browser.get("wavetank.what"))
+            print("of them in sight: %d" % browser.get("wavetank.view.water.geometry.drawRange.count"))
             size = browser.get("[wavetank.view.canvas.width, wavetank.view.canvas.height]")
             frames = after[0] - before[0]
             print("drawn %.1f times a second on %d × %d pixels, %.1f clouds a second" % (frames / wall, *size, (after[1] - before[1]) / wall))
-            print("the browser took %.0f ms of processor time a picture" % (1000 * taken / max(frames, 1)))
+            parts = ", ".join("%s %.0f" % (kind, 1000 * each / max(frames, 1)) for kind, each in taken.most_common())
+            print("the browser took %.0f ms of processor time a picture: %s" % (1000 * sum(taken.values()) / max(frames, 1), parts))
         finally:
             browser.quit()
             end(process)

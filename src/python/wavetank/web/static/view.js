@@ -20,7 +20,7 @@ const POINT_SHADER = {
     void main() {
       vec4 seen = modelViewMatrix * vec4(low + position.xyz * size, 1.0);
       gl_Position = projectionMatrix * seen;
-      gl_PointSize = clamp(diameter * height * projectionMatrix[1][1] * 0.5 / gl_Position.w, 1.5, 64.0);
+      gl_PointSize = clamp(diameter * height * projectionMatrix[1][1] * 0.5 / gl_Position.w, 1.5, 64.0);  // LEAST_PIXELS, MOST_PIXELS
       float at = clamp(position.w * factor, 0.0, 1.0) * 4.0;
       shade = mix(colours[0], colours[1], clamp(at, 0.0, 1.0));
       shade = mix(shade, colours[2], clamp(at - 1.0, 0.0, 1.0));
@@ -45,6 +45,7 @@ const PLAIN_FRAGMENT_SHADER = `
     void main() { gl_FragColor = vec4(shade * (1.08 - 0.3 * gl_PointCoord.y), 1.0); }`;
 const LONGEST = 1000 / 8;  // ms a picture: where it takes longer only some of the particles are drawn
 const FEW = 20000;  // particles, that are all drawn however long it takes
+const LEAST_PIXELS = 1.5, MOST_PIXELS = 64;  // across a particle
 const MOST_LEFT_OUT = 8;  // one in so many is drawn at least
 
 /** A round number that is not less. */
@@ -63,6 +64,47 @@ function oneIn(every, points) {
     some[to + 1] = all[from + 1];
   }
   return new Uint16Array(some.buffer);
+}
+
+/** Of points of four numbers of 16 bits those that a picture shows: the others are out of it, or wholly behind nearer ones. Whoever draws them all gets the same pixels.
+ * toClip: from the numbers to clip coordinates, whose w is the distance; reach: pixels · m, a point's size by its distance. */
+function inSight(points, toClip, width, height, reach) {
+  const m = toClip.elements, count = points.length / 4;
+  const x = new Float32Array(count), y = new Float32Array(count), away = new Float32Array(count), half = new Float32Array(count);
+  let least = MOST_PIXELS;
+  for (let i = 0, at = 0; i < count; ++i, at += 4) {
+    const a = points[at], b = points[at + 1], c = points[at + 2], w = m[3] * a + m[7] * b + m[11] * c + m[15];
+    away[i] = w;
+    if (w <= 0) continue;
+    x[i] = (0.5 + 0.5 * (m[0] * a + m[4] * b + m[8] * c + m[12]) / w) * width;
+    y[i] = (0.5 + 0.5 * (m[1] * a + m[5] * b + m[9] * c + m[13]) / w) * height;
+    half[i] = 0.5 * Math.min(Math.max(reach / w, LEAST_PIXELS), MOST_PIXELS);
+    if (2 * half[i] < least) least = 2 * half[i];
+  }
+  const cell = least / 3, columns = Math.ceil(width / cell), rows = Math.ceil(height / cell);  // so that every point covers some cells wholly
+  const nearest = new Float32Array(columns * rows).fill(Infinity);
+  for (let i = 0; i < count; ++i) {
+    if (away[i] <= 0) continue;
+    const left = Math.max(Math.ceil((x[i] - half[i]) / cell), 0), right = Math.min(Math.floor((x[i] + half[i]) / cell), columns);
+    const low = Math.max(Math.ceil((y[i] - half[i]) / cell), 0), high = Math.min(Math.floor((y[i] + half[i]) / cell), rows);
+    for (let row = low; row < high; ++row)
+      for (let at = row * columns + left, end = row * columns + right; at < end; ++at)
+        if (away[i] < nearest[at]) nearest[at] = away[i];
+  }
+  const all = new Uint32Array(points.buffer, points.byteOffset, 2 * count), some = new Uint32Array(2 * count);  // two a point
+  let kept = 0;
+  for (let i = 0; i < count; ++i) {
+    if (away[i] <= 0) continue;
+    const left = Math.max(Math.floor((x[i] - half[i]) / cell), 0), right = Math.min(Math.floor((x[i] + half[i]) / cell), columns - 1);
+    const low = Math.max(Math.floor((y[i] - half[i]) / cell), 0), high = Math.min(Math.floor((y[i] + half[i]) / cell), rows - 1);
+    let seen = false;
+    for (let row = low; row <= high && !seen; ++row)
+      for (let at = row * columns + left, end = row * columns + right; at <= end && !seen; ++at) seen = away[i] <= nearest[at];
+    if (!seen) continue;
+    some[kept++] = all[2 * i];
+    some[kept++] = all[2 * i + 1];
+  }
+  return new Uint16Array(some.buffer, 0, 2 * kept);
 }
 
 /** Whether the processor draws, for which smooth edges are too dear. */
@@ -111,6 +153,7 @@ class View {
       this._pace(now);
       if (this.dirty) {
         this.dirty = false;
+        if (this.water.visible && (this.stale || this.slow)) this._fillWater();  // from elsewhere other particles are seen
         this.renderer.render(this.scene, this.camera);
         this.frames += 1;
         this.drewAt = now;
@@ -178,20 +221,8 @@ class View {
 
   showCloud(packet) {
     this.given = packet.points.length / 4;
-    const points = oneIn(this.given > FEW ? this.every : 1, packet.points);
-    const count = points.length / 4;
-    const geometry = this.water.geometry;
-    let held = geometry.getAttribute("position");
-    if (!held || held.count < count) {  // with some room, since their number changes
-      geometry.dispose();
-      held = new THREE.BufferAttribute(new Uint16Array(4 * Math.ceil(count * 1.25 + 64)), 4, true);
-      held.setUsage ? held.setUsage(35048) : (held.dynamic = true);
-      geometry.setAttribute("position", held);
-    }
-    held.array.set(points);
-    held.updateRange.count = points.length;
-    held.needsUpdate = true;
-    geometry.setDrawRange(0, count);
+    this.points = oneIn(this.given > FEW ? this.every : 1, packet.points);
+    const count = this.points.length / 4;
     const uniforms = this.water.material.uniforms;
     uniforms.low.value.fromArray(packet.low);
     uniforms.size.value.fromArray(packet.size);
@@ -203,7 +234,34 @@ class View {
     this.count = count;
     this._frame(packet);
     this.placeBodies(packet.poses);
+    this.stale = true;
     this.redraw();
+  }
+
+  /** The points of the last cloud into the array that is drawn; where the processor draws, those in sight alone. */
+  _fillWater() {
+    this.stale = false;
+    let points = this.points;
+    if (this.slow && points.length > 4 * FEW) {
+      const { low, size, diameter, height } = this.water.material.uniforms;
+      this.camera.updateMatrixWorld();
+      this.tank.updateMatrixWorld(true);
+      const toBox = new THREE.Matrix4().makeTranslation(low.value.x, low.value.y, low.value.z).scale(size.value.clone().multiplyScalar(1 / 65535));
+      const toClip = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).multiply(this.tank.matrixWorld).multiply(toBox);
+      points = inSight(points, toClip, this.canvas.width, this.canvas.height, diameter.value * height.value * this.camera.projectionMatrix.elements[5] * 0.5);
+    }
+    const geometry = this.water.geometry, count = points.length / 4;
+    let held = geometry.getAttribute("position");
+    if (!held || held.count < count) {  // with some room, since their number changes
+      geometry.dispose();
+      held = new THREE.BufferAttribute(new Uint16Array(4 * Math.ceil(count * 1.25 + 64)), 4, true);
+      held.setUsage ? held.setUsage(35048) : (held.dynamic = true);
+      geometry.setAttribute("position", held);
+    }
+    held.array.set(points);
+    held.updateRange.count = points.length;
+    held.needsUpdate = true;
+    geometry.setDrawRange(0, count);
   }
 
   showSurface(packet) {
