@@ -1,5 +1,6 @@
 #include "wavetank/node/clouds.h"
 
+#include <array>
 #include <cstring>
 #include <numeric>
 
@@ -52,7 +53,7 @@ sensor_msgs::PointCloud2 cloud_message(const ParticleCloud& cloud, CloudFields f
   message.header.frame_id = frame;
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "pressure"}) append_field(message, name);
   if (fields == CloudFields::all)
-    for (const char* name : {"density", "shepard", "surface"}) append_field(message, name);
+    for (const char* name : {"density", "shepard", "surface", "eigenvalue"}) append_field(message, name);
   message.is_bigendian = is_big_endian();
   message.is_dense = true;
   message.height = 1;
@@ -61,10 +62,12 @@ sensor_msgs::PointCloud2 cloud_message(const ParticleCloud& cloud, CloudFields f
   message.data.resize(message.row_step);
   std::uint8_t* to = message.data.data();
   for (const std::size_t i : kept) {
-    const float point[10] = {
-        cloud.position[i].x(), cloud.position[i].y(), cloud.position[i].z(), cloud.velocity[i].x(), cloud.velocity[i].y(),
-        cloud.velocity[i].z(), cloud.pressure[i],     cloud.density[i],      cloud.shepard[i],      cloud.surface[i] != 0 ? 1.0F : 0.0F};
-    std::memcpy(to, point, message.point_step);
+    const Eigen::Vector3f &place = cloud.position[i], &velocity = cloud.velocity[i];
+    const std::array<float, 11> point{
+        place.x(),          place.y(),         place.z(),        velocity.x(),     velocity.y(),
+        velocity.z(),       cloud.pressure[i], cloud.density[i], cloud.shepard[i], cloud.surface[i] != 0 ? 1.0F : 0.0F,
+        cloud.eigenvalue[i]};
+    std::memcpy(to, point.data(), message.point_step);
     to += message.point_step;
   }
   return message;
@@ -83,6 +86,7 @@ ParticleCloud surface_of(const ParticleCloud& cloud) {
     surface.mass.push_back(cloud.mass[i]);
     surface.shepard.push_back(cloud.shepard[i]);
     surface.surface.push_back(cloud.surface[i]);
+    surface.eigenvalue.push_back(cloud.eigenvalue[i]);
   }
   return surface;
 }

@@ -83,6 +83,7 @@ VtkPolygons water_of(const ParticleCloud& cloud) {
   water.fields.push_back({"mass", 1, ordered(cloud.mass), true});
   water.fields.push_back({"id", 1, ordered(cloud.id), true});
   water.fields.push_back({"gamma", 1, ordered(cloud.shepard), true});
+  water.fields.push_back({"lambda", 1, ordered(cloud.eigenvalue), false});
   water.fields.push_back({"surface", 1, ordered(cloud.surface), true});
   return water;
 }

@@ -225,6 +225,7 @@ class PythonSimulation {
     result["density"] = array_of(cloud.density);
     result["shepard"] = array_of(cloud.shepard);
     result["surface"] = array_of(cloud.surface);
+    result["eigenvalue"] = array_of(cloud.eigenvalue);
     return result;
   }
 

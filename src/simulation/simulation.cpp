@@ -399,6 +399,7 @@ ParticleCloud cloud_of(const FluidState& fluid, const FluidSurface& surface, dou
     cloud.mass.push_back(static_cast<float>(fluid.mass[i]));
     cloud.shepard.push_back(static_cast<float>(surface.shepard[i]));
     cloud.surface.push_back(surface.on_surface[i]);
+    cloud.eigenvalue.push_back(static_cast<float>(surface.eigenvalue[i]));
   }
   return cloud;
 }

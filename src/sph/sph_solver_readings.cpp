@@ -144,6 +144,7 @@ FluidSurface SphSolver<Real>::find_surface() {
   for (int i = 0; i < count_; ++i) {
     found.on_surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);
     found.shepard.push_back(around[field::around_shepard * stride_ + i]);
+    found.eigenvalue.push_back(around[field::around_eigenvalue * stride_ + i]);
   }
   return found;
 }

@@ -22,6 +22,7 @@ ParticleCloud row(std::size_t count) {
     cloud.density.push_back(998.0F + x);
     cloud.mass.push_back(0.001F);
     cloud.shepard.push_back(0.5F);
+    cloud.eigenvalue.push_back(0.7F);
     cloud.surface.push_back(i % 20 == 19 ? 1 : 0);
   }
   return cloud;
@@ -64,9 +65,10 @@ TEST(CloudMessage, OfTheSurfaceHasSevenFloatsAPoint) {
 
 TEST(CloudMessage, OfAllAddsDensityShepardAndSurface) {
   const auto message = cloud_message(row(20), CloudFields::all, 100, "basin", StampClock());
-  EXPECT_EQ(message.point_step, 40U);
+  EXPECT_EQ(message.point_step, 44U);
   EXPECT_EQ(field(message, 19, "density"), 1017.0F);
   EXPECT_EQ(field(message, 19, "shepard"), 0.5F);
+  EXPECT_EQ(field(message, 19, "eigenvalue"), 0.7F);
   EXPECT_EQ(field(message, 19, "surface"), 1.0F);
   EXPECT_EQ(field(message, 18, "surface"), 0.0F);
 }

@@ -100,7 +100,7 @@ class LiveNode(unittest.TestCase):
         self.assertLess(self.first_run("/wavetank/bodies/tank/wrench")[100].wrench.force.z, 0.0, "the water's weight on the floor")
 
     def test_06_clouds(self):
-        for topic, step in [("/wavetank/particles", 40), ("/wavetank/free_surface", 28)]:
+        for topic, step in [("/wavetank/particles", 44), ("/wavetank/free_surface", 28)]:
             cloud = self.ear.all(topic)[-1]
             self.assertEqual(cloud.header.frame_id, "tank")
             self.assertEqual(cloud.point_step, step)

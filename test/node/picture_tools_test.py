@@ -354,7 +354,7 @@ class FilesOfARun(ToolTest):
         for (_, file), (_, cloud) in zip(water, clouds):
             arrays, _ = read_vtp(file)
             self.assertEqual(arrays["id"].tolist(), sorted(arrays["id"].tolist()))
-            for field, column in (("pressure", "pressure"), ("density", "density"), ("gamma", "shepard"), ("surface", "surface")):
+            for field, column in (("pressure", "pressure"), ("density", "density"), ("gamma", "shepard"), ("lambda", "eigenvalue"), ("surface", "surface")):
                 self.assertEqual(sorted(arrays[field].tolist()), sorted(cloud[column].tolist()))
             rows = numpy.column_stack([cloud[axis] for axis in ("x", "y", "z", "vx", "vy", "vz")])
             self.assertEqual(sorted(numpy.column_stack([arrays["points"], arrays["velocity"]]).tolist()), sorted(rows.tolist()))

@@ -32,7 +32,9 @@ TERMS = {
     },
 }
 SCHEMES = {
-    scheme + "_" + law: {**BEFORE, "numerics/scheme": scheme, "numerics/shifting": law, **({} if scheme == "delta_sph" else {"numerics/density_diffusion": "none"})}
+    scheme
+    + "_"
+    + law: {**BEFORE, "numerics/scheme": scheme, "numerics/shifting": law, **({} if scheme == "delta_sph" else {"numerics/density_diffusion": "none"})}
     for scheme in ("delta_sph", "riemann_parshikov", "riemann_ale")
     for law in ("none", "michel")
 }

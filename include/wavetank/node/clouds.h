@@ -11,7 +11,7 @@ namespace wavetank {
 
 enum class CloudFields {
   surface,  ///< x y z (m) vx vy vz (m/s) pressure (Pa, gauge)
-  all       ///< those and density (kg/m³) shepard (γ, 0…1) surface (1 on the free surface, else 0)
+  all       ///< those and density (kg/m³) shepard (γ, 0…1) surface (1 on the free surface, else 0) eigenvalue (λ, 0…1)
 };
 
 /// A cloud as a message of unordered points, every field float32. At most max_points of them: thinned evenly, and by the particles' ids, so

@@ -30,6 +30,7 @@ struct ParticleCloud {
   std::vector<float> mass;                ///< kg (2-D: kg/m)
   std::vector<float> shepard;             ///< γ, 0…1
   std::vector<std::uint8_t> surface;      ///< 1 on the free surface
+  std::vector<float> eigenvalue;          ///< λ: 1 inside the water, less towards its free surface, 0 of a lone drop
 };
 
 struct SolverState {

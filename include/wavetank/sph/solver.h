@@ -203,6 +203,7 @@ struct ImposedZone {
 struct FluidSurface {
   std::vector<double> shepard;           ///< γ
   std::vector<std::uint8_t> on_surface;  ///< 1 on the free surface
+  std::vector<double> eigenvalue;        ///< λ, the least of Σ r ⊗ ∇W V with its walls: 1 inside, less towards a free surface
 };
 
 /// The SPH solver of one fluid between walls, on one device.

@@ -32,7 +32,7 @@ Wrench = collections.namedtuple("Wrench", "time force torque")
 Imu = collections.namedtuple("Imu", "time orientation angular_velocity specific_force")
 SectionFlow = collections.namedtuple("SectionFlow", "discharge area")
 Energies = collections.namedtuple("Energies", "time kinetic potential compression mass damper_power")
-Particles = collections.namedtuple("Particles", "time id position velocity pressure density shepard surface")
+Particles = collections.namedtuple("Particles", "time id position velocity pressure density shepard surface eigenvalue")
 
 
 # What follows has the simulation and not its Tank: a Tank that nobody has any more must go at once, with its memory on the device, and not wait for the
@@ -298,7 +298,8 @@ class Tank:
 
     def particles(self, surface_only=False):
         """All particles, or those on the free surface, at the tank's time, as arrays in no particular order: id (names a particle for good), position (m) and
-        velocity (m/s) of three columns, pressure (Pa, gauge), density (kg/m³), shepard (0…1), surface (1 on the free surface)."""
+        velocity (m/s) of three columns, pressure (Pa, gauge), density (kg/m³), shepard (0…1), surface (1 on the free surface),
+        eigenvalue (λ: 1 inside the water, less towards its free surface)."""
         return Particles(time=self.time, **self._simulation.particles(surface_only))
 
     def take_samples(self):

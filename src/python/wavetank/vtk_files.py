@@ -16,7 +16,7 @@ from wavetank.scenery import TANK, Scenery, Surface
 
 COLLECTION, VIEW, DATA = "case.pvd", "view.py", "data"
 SCRIPT = "package://wavetank/config/paraview/view.py"
-RENAMED = {"shepard": "gamma"}
+RENAMED = {"shepard": "gamma", "eigenvalue": "lambda"}
 PACKED = ("mass", "id", "gamma", "surface")  # few different values, or such that differ little; other numbers pack badly, and cost time
 LISTING_PERIOD = 5.0  # s of wall time between two writings of the collections
 CELLS = {"Verts": 1, "Lines": 2, "Polys": 3}
