@@ -18,7 +18,7 @@ from vtk_reading import read_collection, read_vtp
 from wavetank import Failure, camera, rotations
 from wavetank.recording import Recording
 from wavetank.render import colour_range
-from wavetank.scenery import Surface
+from wavetank.scenery import Scenery, Surface
 from wavetank.vtk_files import PolyData, up_axis
 
 SCRIPTS = os.path.join(PACKAGE, "scripts")
@@ -106,6 +106,20 @@ class Render(ToolTest):
             self.assertEqual(file.read(3), b"\xff\xd8\xff")
         later = orange(read_picture(self.path("later.jpg")))
         self.assertLess(numpy.nonzero(later)[0].mean(), numpy.nonzero(hull)[0].mean() - 5)  # it rises
+
+    def test_moorings_are_where_they_were_drawn_last(self):
+        scenery = Scenery(Recording(self.path(self.bag(moorings=True))))
+        self.assertEqual(scenery.moorings_at(49000000).shape, (0, 3))
+        self.assertEqual(scenery.moorings_at(149999999).tolist(), [[0, 0, 0.5], [0.5, 0, 0.9], [0.5, 0, 0.9], [1, 0, 0.5]])
+        self.assertEqual(scenery.moorings_at(150000000)[1].tolist(), [-0.3, 0, 0.9])
+
+    @unittest.skipUnless(CAN_DRAW, MISSING)
+    def test_moorings_are_drawn(self):
+        looks = ["--size", "320x180", "--eye", "0.5,-2,0.7", "--target", "0.5,0.5,0.5"]
+        for name, moorings in (("with", True), ("without", False)):
+            self.assertEqual(self.run_tool("render", self.bag(moorings=moorings), "-o", name + ".png", "--at", "0.05", *looks).returncode, 0)
+        changed = numpy.abs(read_picture(self.path("with.png")) - read_picture(self.path("without.png"))).max(axis=2) > 0.1
+        self.assertTrue(0.001 < changed.mean() < 0.05, changed.mean())
 
     @unittest.skipUnless(CAN_DRAW, MISSING)
     def test_a_surface_is_drawn_where_there_is_one(self):

@@ -91,7 +91,15 @@ def surface_markers(milliseconds):
         yield marker
 
 
-def write_bag(path, clouds=True, surface=False, case=CASE, odometry=True):
+def mooring_markers(milliseconds):
+    """A line from the tank's lower corner, that swings over the water from one side to the other."""
+    line = stamped(Marker(ns="moorings", type=Marker.LINE_STRIP), milliseconds)
+    line.points = points_of(numpy.array([[0.0, 0.0, 0.5], [0.5 if milliseconds < 100 else -0.3, 0.0, 0.9], [1.0, 0.0, 0.5]]))
+    line.pose.orientation.w = 1.0
+    return MarkerArray([line])
+
+
+def write_bag(path, clouds=True, surface=False, case=CASE, odometry=True, moorings=False):
     with rosbag.Bag(path, "w") as bag:
         bag.write("/wavetank/case", String(case), rospy.Time(0, 1))
         bag.write("/wavetank/markers", markers(), rospy.Time(0, 1))
@@ -108,6 +116,8 @@ def write_bag(path, clouds=True, surface=False, case=CASE, odometry=True):
             bag.write("/wavetank/gauges", stamped(WaveGaugeArray(names=["G"], levels=[0.4 + 0.01 * n], positions=[Point(0.2, 0.3, 0)]), 50 * n), at)
         for n, time in enumerate(TIMES):
             at = rospy.Time.from_sec(1 + n)
+            if moorings:
+                bag.write("/wavetank/markers", mooring_markers(time), at)
             if clouds:
                 bag.write("/wavetank/free_surface", stamped(cloud_of(particles()[: 400 - n]), time), at)
             if surface:

@@ -23,6 +23,7 @@ except ImportError as error:
 SKY, HORIZON = (0.56, 0.67, 0.79), (0.86, 0.90, 0.94)
 WATER = (0.10, 0.42, 0.75)
 BODY, BODY_EDGE = (0.95, 0.58, 0.15), (0.35, 0.20, 0.05)
+MOORING = (0.45, 0.36, 0.05)
 GLASS, GLASS_EDGE = (0.80, 0.86, 0.90), (0.25, 0.30, 0.36)
 FLOOR = (0.74, 0.74, 0.73)
 INK = (0.08, 0.10, 0.14)
@@ -78,6 +79,11 @@ def place(actor, matrix):
     held = vtkMatrix4x4()
     held.DeepCopy(numpy.asarray(matrix, dtype=float).ravel())
     actor.SetUserMatrix(held)
+
+
+def set_lines(actor, points):
+    """Two points a line."""
+    actor.GetMapper().SetInputData(polygons(points, 2))
 
 
 class Stage:
@@ -147,6 +153,10 @@ class Stage:
         actor = self.add(polygons(points, 2), colour, 1.0, width)
         actor.GetProperty().LightingOff()
         return actor
+
+    def add_lines(self, colour, width):
+        """Lines that change: see set_lines."""
+        return self.add_edges(numpy.empty((0, 3)), colour, width)
 
     def add_text(self, place, height):
         text = vtkTextActor()

@@ -169,8 +169,8 @@ class Recording:
         for number in self._connections(name, kind):
             with self._bag.reading(kind):
                 types = read_definition(kind, self._bag.connections[number].definition)
-                for rows in self._bag.messages({number})[number]:
-                    return read_tree(types, kind, rows[0].tobytes())
+                for place, _ in self._bag.places(number):
+                    return read_tree(types, kind, self._bag.message(place))
         return None
 
     def text(self, name):

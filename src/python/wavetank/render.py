@@ -303,6 +303,7 @@ class Drawing:
         self._actors = []  # (actor, pose or None)
         self._glass = numpy.empty((0, 3))
         self._add_shapes()
+        self._moorings = self.stage.add_lines(picture.MOORING, max(1.5, size[1] / 300))
         self._add_water(high - low)
         self._add_glass()
         self._clock = self.stage.add_text((0.02, 0.02), max(12, size[1] // 26))
@@ -391,11 +392,14 @@ class Drawing:
     def draw(self, n):
         stamp = int(self._water.stamps[n])
         picture = self._picture
-        tank = numpy.eye(4)
-        if self._camera.in_world and self._scenery.tank_pose is not None:
-            tank = picture.matrix_of(*self._scenery.tank_pose.at(stamp))
+        tank = world = numpy.eye(4)  # from the frames of the tank and of the world to the camera's
+        if self._scenery.tank_pose is not None:
+            in_world = picture.matrix_of(*self._scenery.tank_pose.at(stamp))
+            tank, world = (in_world, world) if self._camera.in_world else (tank, numpy.linalg.inv(in_world))
         for actor, pose in self._actors:
             picture.place(actor, tank if pose is None else tank @ picture.matrix_of(*pose.at(stamp)))
+        picture.set_lines(self._moorings, self._scenery.moorings_at(stamp))
+        picture.place(self._moorings, world)
         if isinstance(self._water, Particles):
             cloud = self._water.cloud(n)
             self._look.show(numpy.column_stack([cloud[axis] for axis in "xyz"]), value_of(cloud, self._options.colour))

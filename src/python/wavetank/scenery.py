@@ -11,7 +11,7 @@ from wavetank.runs import read_yaml
 CLOUDS = ("particles", "free_surface")
 SURFACE = "surface_mesh"
 MARKER, MARKERS = "visualization_msgs/Marker", "visualization_msgs/MarkerArray"
-ADD, LINES, POINTS, RESOURCE, TRIANGLES = 0, 5, 8, 10, 11  # of visualization_msgs/Marker
+ADD, STRIP, LINES, POINTS, RESOURCE, TRIANGLES = 0, 4, 5, 8, 10, 11  # of visualization_msgs/Marker
 TANK = "tank"
 
 
@@ -93,6 +93,7 @@ class Scenery:
         self.poses = {name: Pose(table) for name, table in odometries.items() if len(table)}
         self.tank_pose = self.poses.get(TANK)
         self.meshes, self.edges, self.probes = {}, {}, []
+        self._drawings = None  # all messages of markers, read when they are first asked for
         self._lost = set()  # bodies that move in a way the bag does not tell
         message = recording.first("markers", MARKERS)
         for marker in message["markers"] if message else []:
@@ -121,6 +122,16 @@ class Scenery:
         if points is not None and len(points):
             kind = "Lines" if marker["type"] == LINES else "Polys"
             (self.edges if kind == "Lines" else self.meshes)[name] = Shape(name, kind, placed(marker, points), self.poses.get(body))
+
+    def moorings_at(self, stamp):
+        """Their lines in the world as they were drawn last, two points a segment; none before they are first."""
+        if self._drawings is None:
+            self._drawings = self._recording.stream("markers", MARKERS, header_at=4)
+        last = int(numpy.searchsorted(self._drawings.stamps, stamp, side="right")) - 1
+        markers = self._drawings.read(last)["markers"] if last > 0 else []  # the first draws the tank and what stands in it
+        lines = [placed(marker, rows(marker["points"])) for marker in markers if marker["ns"] == "moorings" and marker["type"] == STRIP]
+        segments = [numpy.stack([line[:-1], line[1:]], axis=1).reshape(-1, 3) for line in lines if len(line) > 1]
+        return numpy.concatenate(segments) if segments else numpy.empty((0, 3))
 
     def shapes(self):
         """Meshes, and the edges of what has no mesh here."""
