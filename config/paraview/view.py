@@ -21,7 +21,25 @@ from paraview.simple import (
     Show,
 )
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
+
+def own_folder():
+    """pvpython tells a script its file; ParaView's window does not, but it was called with it, or works in that folder."""
+    calls = [__file__] if "__file__" in globals() else []
+    try:
+        with open("/proc/self/cmdline") as file:
+            words = file.read().split("\0")
+        calls += [word.partition("=")[2] for word in words if word.startswith("--script=")]
+        calls += [after for word, after in zip(words, words[1:]) if word == "--script"]
+    except OSError:
+        pass  # of another system
+    folders = [os.path.dirname(os.path.abspath(call)) for call in calls] + [os.getcwd()]
+    for folder in folders:
+        if os.path.exists(os.path.join(folder, "case.pvd")):
+            return folder
+    raise RuntimeError("no case.pvd in '%s': call it as paraview --script=FOLDER/view.py" % "', '".join(folders))
+
+
+FOLDER = own_folder()
 
 
 def names():
@@ -76,10 +94,7 @@ def show(view):
 
 def look(view):
     """From above and a side."""
-    camera = view.GetActiveCamera()
-    camera.SetFocalPoint(0, 0, 0)
-    camera.SetPosition(-0.32, -0.86, 0.41)
-    camera.SetViewUp(0, 0, 1)
+    view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0], [-0.32, -0.86, 0.41], [0, 0, 1]
     ResetCamera(view)
 
 
@@ -107,4 +122,4 @@ def main(arguments):
         SaveScreenshot(options.png, view, ImageResolution=view.ViewSize)
 
 
-main(sys.argv[1:])
+main(sys.argv[1:] if "__file__" in globals() else [])  # of the window the words are its own
