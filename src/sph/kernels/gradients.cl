@@ -1,6 +1,7 @@
 // Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
 // Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where
 // particles exchange mass, γ beside them, and the eddy viscosity by the rate of strain. As pair.cl has them in the array.
+#define KEEPS_BLOCKS
 #include "walls.cl"
 #include "pair.cl"
 #include "turbulence.cl"
@@ -150,11 +151,12 @@ INLINE void renormalise(const renormalisation_t* l, real x, real y, real z, real
 }
 
 __kernel void gradients(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                        WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
+                        WALL_ARGUMENTS, __global const real* images, __global real* gradient, __global int* blocks) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  USE_BLOCK_LIST(a.near)
   a.own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
 #if VELOCITIES
   for (int axis = 0; axis < 3; ++axis) a.own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
@@ -214,7 +216,7 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
 #elif GRADIENT_OF_STRAIN
     int at = GRADIENT_U;
     for (int of = 0; of < 3; ++of)
-      for (int axis = of; axis < 3; ++axis) to[at++ * stride] = R(0.5) * (found[1 + of][k][axis] + found[1 + axis][k][of]);
+      for (int axis = of; axis < 3; ++axis) to[at++ * stride] = of == axis ? found[1 + of][k][axis] : found[1 + of][k][axis] + found[1 + axis][k][of];
 #endif
 #if EDDIES
     to[GRADIENT_EDDIES * stride] = (DIMENSIONS + R(2.0)) * p->density * eddy_viscosity(p, strain_squared(found, k), clearance[k]);
