@@ -86,35 +86,46 @@ INLINE real strain_squared(real gradients[QUANTITIES][TILE_OWN][3], int k) {
 }
 #endif
 
-INLINE void add_difference(sweep_t* a, int of, tile weighted, tile rx, tile ry, tile rz) {
+// Σ of a difference times ∇W V, of which (wx, wy, wz) is V ∇W. δ-SPH keeps the order of products that it has always had.
+INLINE void add_difference(sweep_t* a, int of, tile slope_volume, tile difference, tile rx, tile ry, tile rz, tile wx, tile wy, tile wz) {
+#if HAS_BLOCK_LIST
+  a->sum_x[of] += difference * wx;
+  a->sum_z[of] += difference * wz;
+#if DIMENSIONS == 3
+  a->sum_y[of] += difference * wy;
+#endif
+#else
+  const tile weighted = slope_volume * difference;
   a->sum_x[of] += weighted * rx;
   a->sum_z[of] += weighted * rz;
 #if DIMENSIONS == 3
   a->sum_y[of] += weighted * ry;
 #endif
+#endif
 }
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
   const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_volume(&a->near, j);
+  const tile wx = slope_volume * rx, wy = slope_volume * ry, wz = slope_volume * rz;
 #if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
   a->shepard += kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
 #endif
-  add_difference(a, 0, slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0]), rx, ry, rz);
+  add_difference(a, 0, slope_volume, neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0], rx, ry, rz, wx, wy, wz);
 #if VELOCITIES
   const tile_vector_t velocity = neighbour_velocity(&a->near, j);
-  add_difference(a, 1, slope_volume * (velocity.x - a->own[1]), rx, ry, rz);
+  add_difference(a, 1, slope_volume, velocity.x - a->own[1], rx, ry, rz, wx, wy, wz);
 #if DIMENSIONS == 3
-  add_difference(a, 2, slope_volume * (velocity.y - a->own[2]), rx, ry, rz);
+  add_difference(a, 2, slope_volume, velocity.y - a->own[2], rx, ry, rz, wx, wy, wz);
 #endif
-  add_difference(a, 3, slope_volume * (velocity.z - a->own[3]), rx, ry, rz);
+  add_difference(a, 3, slope_volume, velocity.z - a->own[3], rx, ry, rz, wx, wy, wz);
 #endif
-  a->xx += slope_volume * rx * rx;
-  a->xz += slope_volume * rx * rz;
-  a->zz += slope_volume * rz * rz;
+  a->xx += wx * rx;
+  a->xz += wx * rz;
+  a->zz += wz * rz;
 #if DIMENSIONS == 3
-  a->xy += slope_volume * rx * ry;
-  a->yy += slope_volume * ry * ry;
-  a->yz += slope_volume * ry * rz;
+  a->xy += wx * ry;
+  a->yy += wy * ry;
+  a->yz += wy * rz;
 #endif
 }
 
