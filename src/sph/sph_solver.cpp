@@ -63,7 +63,8 @@ std::size_t cells_of(const Discretisation& d) {
   return static_cast<std::size_t>(d.cells[0]) * static_cast<std::size_t>(d.cells[1]) * static_cast<std::size_t>(d.cells[2]);
 }
 
-/// Of a tile: about as many as a particle has neighbours in a lattice, which is half as much again as tiles of four with four candidates have.
+/// Of a tile: about as many as a particle has neighbours in a lattice, which is half as much again as tiles of four with four candidates
+/// have.
 int blocks_with_room(const Discretisation& d) {
   const double ratio = d.support / d.spacing;
   return static_cast<int>(d.dimensions == 3 ? 4.19 * ratio * ratio * ratio : 3.15 * ratio * ratio);
@@ -143,7 +144,8 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
   compresses_by_gradients_ = compress_by_gradients(rows.methods(scene));
   add_options(rows.methods(scene), options_);
-  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() && options_.at("THIN_WALLS") == 0)
+  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() &&
+      options_.at("THIN_WALLS") == 0)
     options_["BLOCK_LIST"] = listed_blocks_ = blocks_with_room(discretisation_);
   add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);

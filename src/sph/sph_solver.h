@@ -229,10 +229,10 @@ class SphSolver final : public Solver, private StepEngine {
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
   bool accelerates_by_gradients_ = false;
   bool compresses_by_gradients_ = false;
-  int listed_blocks_ = 0;         ///< of candidates of a tile, at the most
-  bool blocks_are_of_now_ = false;  ///< and not of another state, or order, of the particles
+  int listed_blocks_ = 0;              ///< of candidates of a tile, at the most
+  bool blocks_are_of_now_ = false;     ///< and not of another state, or order, of the particles
   bool gradients_are_of_now_ = false;  ///< they were found ahead of the stage that needs them
-  int long_axes_ = 0;  ///< along which a particle's place is known in two parts
+  int long_axes_ = 0;                  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;
   GridShape grid_shape_;
@@ -250,8 +250,8 @@ class SphSolver final : public Solver, private StepEngine {
   Buffer state_, rates_, gradient_;
   compute::Buffer<int> blocks_;         ///< of candidates, with a pair each, of the tiles for whose state gradients were found last
   compute::Buffer<int> surface_cells_;  ///< 1: a particle of the free surface is in it; of cells of the support's size
-  Buffer half_;  ///< the trial state of the step, its middle or end; then what the state is sorted into
-  Buffer sum_;   ///< of weighted rates, for integrators that have one
+  Buffer half_;                         ///< the trial state of the step, its middle or end; then what the state is sorted into
+  Buffer sum_;                          ///< of weighted rates, for integrators that have one
   compute::Buffer<std::uint32_t> id_, spare_id_;
   std::vector<TankImage> images_;
   Surroundings<Real> surroundings_;
