@@ -58,6 +58,18 @@ double farthest_drift(const Schedule& schedule, const Case& scene, const Discret
   return std::max(0.25 * d.spacing, schedule.drift() * way);
 }
 
+/// Of the grid by which walls are found, the border's too.
+std::size_t cells_of(const Discretisation& d) {
+  return static_cast<std::size_t>(d.cells[0]) * static_cast<std::size_t>(d.cells[1]) * static_cast<std::size_t>(d.cells[2]);
+}
+
+/// Of a tile: about as many as a particle has neighbours in a lattice, which is half as much again as tiles of four with four candidates
+/// have.
+int blocks_with_room(const Discretisation& d) {
+  const double ratio = d.support / d.spacing;
+  return static_cast<int>(d.dimensions == 3 ? 4.19 * ratio * ratio * ratio : 3.15 * ratio * ratio);
+}
+
 /// Least squares have images of the water in walls, for which one on the other side of an edge, or of a thin wall, would be in the water.
 void check_walls_of_least_squares(const Case& scene, const Layout& layout, bool thin_walls) {
   const std::string chosen = "numerics/gradients is " + word_of(scene.numerics.gradients);
@@ -99,6 +111,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       state_(make_array(ParticleArray::state)),
       rates_(make_array(ParticleArray::rates)),
       gradient_(device, gradient_components(rows.methods(scene)) * static_cast<std::size_t>(stride_)),
+      blocks_(device, 0),
       half_(make_array(ParticleArray::state)),
       sum_(rows.integrator(scene, nullptr).writes("sum of rates") ? make_array(ParticleArray::sums) : Buffer(device, 0)),
       id_(device, stride_),
@@ -131,6 +144,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
   compresses_by_gradients_ = compress_by_gradients(rows.methods(scene));
   add_options(rows.methods(scene), options_);
+  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() &&
+      options_.at("THIN_WALLS") == 0)
+    options_["BLOCK_LIST"] = listed_blocks_ = blocks_with_room(discretisation_);
   add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);
   sources_["sizes.cl"] = sizes_header();
@@ -290,6 +306,7 @@ void SphSolver<Real>::sort() {
   }
   add_waiting();
   surroundings_.grid.sort(count_);
+  blocks_are_of_now_ = gradients_are_of_now_ = false;
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
   surroundings_.reach = static_cast<Real>(discretisation_.support);
@@ -340,9 +357,18 @@ void SphSolver<Real>::find_rates(Slot state) {
 template <class Real>
 void SphSolver<Real>::find_gradients(Slot state) {
   if (gradient_.size() == 0) return;
+  if (std::exchange(gradients_are_of_now_, false) && state == Slot::now) return;
+  reserve_blocks();
   spoil("gradients");
   over_own(kernels_.gradients[state]);
   refresh("gradients");
+  blocks_are_of_now_ = state == Slot::now;
+}
+
+template <class Real>
+void SphSolver<Real>::reserve_blocks() {
+  const std::size_t wanted = listed_blocks_ == 0 ? 0 : static_cast<std::size_t>(tiles()) * (listed_blocks_ + 2);
+  if (blocks_.size() < wanted) blocks_ = compute::Buffer<int>(device_, wanted + wanted / 8);
 }
 
 template <class Real>
@@ -380,8 +406,8 @@ void SphSolver<Real>::guard() {
 
 template <class Real>
 void SphSolver<Real>::sweep_surface() {
+  if (listed_blocks_ != 0 && !blocks_are_of_now_) find_gradients(Slot::now);
   over_own(kernels_.normals);
-  refresh("surroundings");
   over_own(kernels_.cone);
 }
 
@@ -389,8 +415,13 @@ template <class Real>
 void SphSolver<Real>::find_shifts() {
   if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
   spoil("surroundings");
+  const bool ahead = listed_blocks_ != 0 && !blocks_are_of_now_;
   sweep_surface();
+  gradients_are_of_now_ = ahead && case_.numerics.integrator != Integrator::symplectic;
   refresh("surroundings");
+  if (surface_cells_.size() == 0) surface_cells_ = compute::Buffer<int>(device_, cells_of(discretisation_));
+  surface_cells_.fill_zero();
+  kernels_.mark_surface.launch(count_);
   over_own(kernels_.shifts);
   if (zones_.any()) kernels_.hold_shifts.launch(count_);
   // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts

@@ -113,6 +113,7 @@ class SphSolver final : public Solver, private StepEngine {
   void bind_kernels();
   void bind_sweeps();
   void bind_time_step();
+  void bind_shifts();
   void bind_zones();
   void bind_reductions();
   void bind_part();
@@ -170,6 +171,10 @@ class SphSolver final : public Solver, private StepEngine {
   void load_walls(Slot state);
   void sweep_surface();
   void find_gradients(Slot state);
+  /// Tiles that sweeps go over.
+  int tiles() const { return part_ ? part_->tiles() : (count_ + tiling_.particles.own - 1) / tiling_.particles.own; }
+  /// Room for the blocks of candidates of each, where gradients list them.
+  void reserve_blocks();
   /// After what has found rates.
   void hold_zones(Slot state);
   StepReport watch();
@@ -182,7 +187,7 @@ class SphSolver final : public Solver, private StepEngine {
     std::map<Slot, BoundSweep> continuity, momentum, rates, gradients, loads;
     BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end, impose,
-        hold_shifts, damp;
+        hold_shifts, damp, mark_surface;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
   };
   /// Of the state's vectors, where their first components are.
@@ -224,7 +229,10 @@ class SphSolver final : public Solver, private StepEngine {
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
   bool accelerates_by_gradients_ = false;
   bool compresses_by_gradients_ = false;
-  int long_axes_ = 0;  ///< along which a particle's place is known in two parts
+  int listed_blocks_ = 0;              ///< of candidates of a tile, at the most
+  bool blocks_are_of_now_ = false;     ///< and not of another state, or order, of the particles
+  bool gradients_are_of_now_ = false;  ///< they were found ahead of the stage that needs them
+  int long_axes_ = 0;                  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;
   GridShape grid_shape_;
@@ -240,8 +248,10 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<double> levels_;             ///< by particle id, for that: heights along `up_`
   std::vector<double> volumes_;            ///< likewise: what each was given of the water's volume, m³
   Buffer state_, rates_, gradient_;
-  Buffer half_;  ///< the trial state of the step, its middle or end; then what the state is sorted into
-  Buffer sum_;   ///< of weighted rates, for integrators that have one
+  compute::Buffer<int> blocks_;         ///< of candidates, with a pair each, of the tiles for whose state gradients were found last
+  compute::Buffer<int> surface_cells_;  ///< 1: a particle of the free surface is in it; of cells of the support's size
+  Buffer half_;                         ///< the trial state of the step, its middle or end; then what the state is sorted into
+  Buffer sum_;                          ///< of weighted rates, for integrators that have one
   compute::Buffer<std::uint32_t> id_, spare_id_;
   std::vector<TankImage> images_;
   Surroundings<Real> surroundings_;

@@ -9,7 +9,7 @@ template <class Real>
 compute::Arguments SphSolver<Real>::arguments() const {
   compute::Arguments all = surroundings_.arguments(walls_);
   all.value("count", count_).memory("motions", surroundings_.motions.on_device());
-  all.memory("state", state_).memory("half_state", half_).memory("rates", rates_).memory("gradient", gradient_);
+  all.memory("state", state_).memory("half_state", half_).memory("rates", rates_).memory("gradient", gradient_).memory("blocks", blocks_);
   all.memory("wall_loads", loads_).memory("time_step", report_).memory("id", id_).memory("guard_hits", guarded_.hits);
   return all;
 }
@@ -47,21 +47,30 @@ void SphSolver<Real>::bind_sweeps() {
     kernels_.momentum[slot] = make_->over_particles(by + "momentum.cl", "momentum", writes);
     kernels_.rates[slot] = make_->over_particles(by + "rates.cl", "rates_of_state", writes);
     writes = of_state;
-    kernels_.gradients[slot] = make_->over_particles(by + "gradients.cl", "gradients", writes.memory("gradient", gradient_));
+    kernels_.gradients[slot] =
+        make_->over_particles(by + "gradients.cl", "gradients", writes.memory("gradient", gradient_).memory("blocks", blocks_));
     writes = of_state;
     kernels_.loads[slot] = make_->over_points("wall_loads.cl", "wall_loads", writes.value("count", walls_.count).memory("loads", loads_));
   }
   kernels_.packing = make_->over_particles("packing.cl", "packing", arguments().memory("rates", rates_));
   kernels_.normals = make_->over_particles("surface.cl", "surface_normals", arguments().memory("around", around_));
   kernels_.cone = make_->over_particles("cone.cl", "surface_cone", arguments().memory("around", around_));
-  if (shifts())
-    kernels_.shifts =
-        make_->over_particles("shifts.cl", "shifts", arguments().memory("state", state_).memory("around", std::as_const(around_)));
+  if (shifts()) bind_shifts();
   kernels_.crowding = make_->over_particles("crowding.cl", "crowding", arguments().memory("fillings", fillings_));
   kernels_.pairs = make_->over_particles("pairs.cl", "pairs", arguments().memory("counts", pair_counts_));
   compute::Arguments guarding = arguments().memory("state", state_);
   guarded_.add_to(guarding);
   kernels_.guard = {make_->exact("guard.cl", "guard", guarding), 1};
+}
+
+template <class Real>
+void SphSolver<Real>::bind_shifts() {
+  compute::Arguments shifting = arguments();
+  shifting.memory("around", std::as_const(around_));
+  kernels_.mark_surface =
+      make_->exact("mark_surface.cl", "mark_surface", compute::Arguments(shifting).memory("surface_cells", surface_cells_));
+  kernels_.shifts =
+      make_->over_particles("shifts.cl", "shifts", shifting.memory("state", state_).memory("surface_cells", std::as_const(surface_cells_)));
 }
 
 template <class Real>

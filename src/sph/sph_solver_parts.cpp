@@ -99,6 +99,7 @@ void SphSolver<Real>::sort_part() {
 template <class Real>
 void SphSolver<Real>::sort_alone() {
   surroundings_.grid.sort(count_);
+  blocks_are_of_now_ = gradients_are_of_now_ = false;
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
   surroundings_.reach = static_cast<Real>(discretisation_.support);

@@ -117,6 +117,15 @@ TEST(Tiling, DoesNotChangeTheSumsIn3D) { compare(column(3, Precision::single, fa
 TEST(Tiling, DoesNotChangeTheSumsInAPeriodicTank) { compare(column(2, Precision::single, true), {16}, 2e-6); }
 TEST(Tiling, DoesNotChangeTheSumsInDoublePrecision) { compare(column(2, Precision::double_, false), {16}, 1e-13); }
 
+// Whose sweeps go by a list of blocks that have a pair where tiles are wide; and what shifting laws ask of the surface.
+TEST(Tiling, DoesNotChangeTheSumsOfARiemannScheme) {
+  Case scene = column(2, Precision::single, false);
+  scene.bodies.clear();  // with thin walls there is no list
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  scene.numerics.shifting = Shifting::michel;
+  compare(scene, {16}, 2e-6);
+}
+
 /// With a plate thinner than the support in the water, two of its edges free.
 Case column_about_plate(int dimensions) {
   Case scene = column(dimensions, Precision::single, false);

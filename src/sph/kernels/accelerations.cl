@@ -1,13 +1,15 @@
 // The accelerations of a tile by the sums of momentum_sums.cl, and what the guard asks about walls; with BOTH_RATES the other rates too. For momentum.cl and
 // rates.cl.
 #define WALL_FORCES 0
+#define TAKES_BLOCKS
 #include "momentum_sums.cl"
 
 INLINE void accelerate_tile(__constant const parameters_t* p, int first, int count, __global const int* slot_start, __global const real* state, long stride,
                             real reach, walls_t* walls, __global const real* images, __global const real* gradient, __global const real* wall_loads,
-                            __global const real* film, __global real* rates) {
+                            __global const real* film, __global const int* blocks, __global real* rates) {
   sweep_t a = {0};
   start_sums(&a, p, first, count, state, stride, reach, walls, gradient);
+  USE_BLOCK_LIST(a.near)
 #if NEEDS_FIT
   bool near = false;
   for (int k = 0; k < a.near.own; ++k) near = near || near_walls(p, walls, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);

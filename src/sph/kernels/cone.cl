@@ -1,5 +1,6 @@
 // Marrone's cone test (2010), of particles whose λ does not tell: one with a neighbour in the cone of 45° about its normal, or in the ball that closes it, is
 // inside. The cone's length R/3 is that test's own, and finds holes of three spacings.
+#define TAKES_BLOCKS
 #include "walls.cl"
 #include "around.cl"
 #define SWEEP_PARTICLES
@@ -27,11 +28,12 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 #include "sweep.cl"
 
 __kernel void surface_cone(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                           WALL_ARGUMENTS, __global const real* images, __global real* around) {
+                           WALL_ARGUMENTS, __global const real* images, __global const int* blocks, __global real* around) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  USE_BLOCK_LIST(a.near)
   __global const real* eigenvalue = around + AROUND_EIGENVALUE * stride;
   bool unsure = false;
   for (int k = 0; k < a.near.own; ++k)

@@ -1,4 +1,5 @@
 // The rates of the compression and of what else evolves, by the sums of continuity_sums.cl.
+#define TAKES_BLOCKS
 #include "walls.cl"
 #include "pair.cl"
 #include "equation_of_state.cl"
@@ -55,11 +56,12 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #include "sweep.cl"
 
 __kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
-                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global real* rates) {
+                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const int* blocks, __global real* rates) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  USE_BLOCK_LIST(a.near)
   a.gradient = gradient;
   a.u = own_values(state + FIELD_U * stride, first);
   a.v = own_values(state + FIELD_V * stride, first);

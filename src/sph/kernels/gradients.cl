@@ -1,6 +1,7 @@
 // Renormalised gradients ⟨∇f⟩ = L Σ_j (f_j − f_i) ∇W V_j with L = (Σ_j r ⊗ ∇W V_j)⁻¹ over the fluid: of the compression, for Antuono's density diffusion and
 // Riemann problems, and of the velocity (GRADIENT_OF_VELOCITY), or the rate of strain that follows from that (GRADIENT_OF_STRAIN); where
 // particles exchange mass, γ beside them, and the eddy viscosity by the rate of strain. As pair.cl has them in the array.
+#define KEEPS_BLOCKS
 #include "walls.cl"
 #include "pair.cl"
 #include "turbulence.cl"
@@ -85,35 +86,46 @@ INLINE real strain_squared(real gradients[QUANTITIES][TILE_OWN][3], int k) {
 }
 #endif
 
-INLINE void add_difference(sweep_t* a, int of, tile weighted, tile rx, tile ry, tile rz) {
+// Σ of a difference times ∇W V, of which (wx, wy, wz) is V ∇W. δ-SPH keeps the order of products that it has always had.
+INLINE void add_difference(sweep_t* a, int of, tile slope_volume, tile difference, tile rx, tile ry, tile rz, tile wx, tile wy, tile wz) {
+#if HAS_BLOCK_LIST
+  a->sum_x[of] += difference * wx;
+  a->sum_z[of] += difference * wz;
+#if DIMENSIONS == 3
+  a->sum_y[of] += difference * wy;
+#endif
+#else
+  const tile weighted = slope_volume * difference;
   a->sum_x[of] += weighted * rx;
   a->sum_z[of] += weighted * rz;
 #if DIMENSIONS == 3
   a->sum_y[of] += weighted * ry;
 #endif
+#endif
 }
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
   const tile slope_volume = kernel_slopes(p, sqrt(r2)) * near_volume(&a->near, j);
+  const tile wx = slope_volume * rx, wy = slope_volume * ry, wz = slope_volume * rz;
 #if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
   a->shepard += kernel_values(p, sqrt(r2)) * near_volume(&a->near, j);
 #endif
-  add_difference(a, 0, slope_volume * (neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0]), rx, ry, rz);
+  add_difference(a, 0, slope_volume, neighbour_compression(&a->near, p, j, rx, ry, rz) - a->own[0], rx, ry, rz, wx, wy, wz);
 #if VELOCITIES
   const tile_vector_t velocity = neighbour_velocity(&a->near, j);
-  add_difference(a, 1, slope_volume * (velocity.x - a->own[1]), rx, ry, rz);
+  add_difference(a, 1, slope_volume, velocity.x - a->own[1], rx, ry, rz, wx, wy, wz);
 #if DIMENSIONS == 3
-  add_difference(a, 2, slope_volume * (velocity.y - a->own[2]), rx, ry, rz);
+  add_difference(a, 2, slope_volume, velocity.y - a->own[2], rx, ry, rz, wx, wy, wz);
 #endif
-  add_difference(a, 3, slope_volume * (velocity.z - a->own[3]), rx, ry, rz);
+  add_difference(a, 3, slope_volume, velocity.z - a->own[3], rx, ry, rz, wx, wy, wz);
 #endif
-  a->xx += slope_volume * rx * rx;
-  a->xz += slope_volume * rx * rz;
-  a->zz += slope_volume * rz * rz;
+  a->xx += wx * rx;
+  a->xz += wx * rz;
+  a->zz += wz * rz;
 #if DIMENSIONS == 3
-  a->xy += slope_volume * rx * ry;
-  a->yy += slope_volume * ry * ry;
-  a->yz += slope_volume * ry * rz;
+  a->xy += wx * ry;
+  a->yy += wy * ry;
+  a->yz += wy * rz;
 #endif
 }
 
@@ -150,11 +162,12 @@ INLINE void renormalise(const renormalisation_t* l, real x, real y, real z, real
 }
 
 __kernel void gradients(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
-                        WALL_ARGUMENTS, __global const real* images, __global real* gradient) {
+                        WALL_ARGUMENTS, __global const real* images, __global real* gradient, __global int* blocks) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  USE_BLOCK_LIST(a.near)
   a.own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
 #if VELOCITIES
   for (int axis = 0; axis < 3; ++axis) a.own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
@@ -214,7 +227,7 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
 #elif GRADIENT_OF_STRAIN
     int at = GRADIENT_U;
     for (int of = 0; of < 3; ++of)
-      for (int axis = of; axis < 3; ++axis) to[at++ * stride] = R(0.5) * (found[1 + of][k][axis] + found[1 + axis][k][of]);
+      for (int axis = of; axis < 3; ++axis) to[at++ * stride] = of == axis ? found[1 + of][k][axis] : found[1 + of][k][axis] + found[1 + axis][k][of];
 #endif
 #if EDDIES
     to[GRADIENT_EDDIES * stride] = (DIMENSIONS + R(2.0)) * p->density * eddy_viscosity(p, strain_squared(found, k), clearance[k]);

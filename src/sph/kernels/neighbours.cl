@@ -60,6 +60,17 @@ typedef struct {
 #endif
 #define WALLS_OF_ARGUMENTS {wall_start, wall_list, wall_fields, wall_stride, wall_motions, barrier_start, barrier_list, barriers, edge_start, edge_list, edges}
 
+// BLOCK_LIST, where it is defined, is how many blocks of candidates a tile has room for in a list, which the sweep over a state's gradients makes of those
+// that have a pair, and the sweeps over the same state go by: each tile's has their number, or −1 if they are not listed, and then one value for each.
+#if defined(BLOCK_LIST) && TILE_LANES > 1 && !IMAGES && !THIN_WALLS
+#define HAS_BLOCK_LIST 1
+#define BLOCK_LIST_OF_TILE (blocks + (long)(BLOCK_LIST + 2) * get_global_id(0))
+#define USE_BLOCK_LIST(near) (near).blocks = BLOCK_LIST_OF_TILE;
+#else
+#define HAS_BLOCK_LIST 0
+#define USE_BLOCK_LIST(near)
+#endif
+
 // Where the particles of a tile lie, or the one point, whose neighbours are wanted.
 typedef struct {
   real x[TILE_OWN], y[TILE_OWN], z[TILE_OWN];
@@ -75,6 +86,13 @@ typedef struct {
   tile rest[3];  // of the places
 #endif
   const walls_t* walls;
+#if HAS_BLOCK_LIST
+#ifdef KEEPS_BLOCKS
+  __global int* blocks;
+#else
+  __global const int* blocks;
+#endif
+#endif
 #if THIN_WALLS
   bool past;                     // thin walls may stand between the tile and what is within its support
   int watched;                   // the owner whose thin walls' hiding is told apart; NO_OWNER if none's is

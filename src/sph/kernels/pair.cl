@@ -29,7 +29,7 @@ INLINE pair_t pair_of(const neighbours_t* n, int j, tile rx, tile ry, tile rz, t
 
 // Gradients that gradients.cl has found, one after the other in an array.
 #define GRADIENT_COMPRESSION 0  // three values
-#define GRADIENT_U 3            // of u, then v, then w, three values each (GRADIENT_OF_VELOCITY); or the rate of strain, six (GRADIENT_OF_STRAIN)
+#define GRADIENT_U 3            // of u, then v, then w, three values each (GRADIENT_OF_VELOCITY); or of the rate of strain six, twice it off the diagonal (GRADIENT_OF_STRAIN)
 #define GRADIENT_SHEPARD 12     // and, where particles exchange mass, γ
 #define GRADIENT_EDDIES (GRADIENT_OF_STRAIN ? 9 : 13)  // and (d+2) ρ₀ times the eddy viscosity
 
@@ -79,7 +79,7 @@ INLINE tile shared_shepard(const neighbours_t* n, __global const real* gradient,
   return R(2.0) / (own_shepard + near_values(gradient + GRADIENT_SHEPARD * n->stride, j));
 }
 
-// ½ (∇u + ∇uᵀ).
+// The rate of strain ½ (∇u + ∇uᵀ), off its diagonal twice that.
 typedef struct {
   tile xx, xy, xz, yy, yz, zz;
 } strain_t;
@@ -101,8 +101,8 @@ INLINE strain_t near_strain(const neighbours_t* n, __global const real* gradient
 // r·(r·∇)u.
 INLINE tile stretch_of(const strain_t* e, tile rx, tile ry, tile rz) {
 #if DIMENSIONS == 3
-  return rx * (e->xx * rx + R(2.0) * (e->xy * ry + e->xz * rz)) + ry * (e->yy * ry + R(2.0) * e->yz * rz) + e->zz * rz * rz;
+  return rx * (e->xx * rx + e->xy * ry + e->xz * rz) + ry * (e->yy * ry + e->yz * rz) + e->zz * rz * rz;
 #else
-  return rx * (e->xx * rx + R(2.0) * e->xz * rz) + e->zz * rz * rz;
+  return rx * (e->xx * rx + e->xz * rz) + e->zz * rz * rz;
 #endif
 }

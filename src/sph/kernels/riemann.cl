@@ -50,8 +50,19 @@ INLINE scheme_own_t scheme_own(const neighbours_t* n, __global const real* gradi
   return own;
 }
 
-// The smaller in size of two of one sign, else 0.
-INLINE tile minmod(tile a, tile b) { return fmax(fmin(a, b), R(0.0)) + fmin(fmax(a, b), R(0.0)); }
+// The smaller in size of two of one sign, else 0: the first, no farther from 0 than the second is, and on its side of it. Both sides of a pair are limited by
+// the same second one, whose bounds are found once.
+typedef struct {
+  tile least, most;
+} limits_t;
+
+INLINE limits_t limits_of(tile difference) {
+  const tile none = (tile)(R(0.0));
+  const limits_t limits = {fmin(difference, none), fmax(difference, none)};
+  return limits;
+}
+
+INLINE tile minmod(const limits_t* limits, tile change) { return fmin(fmax(change, limits->least), limits->most); }
 
 // What u changes by over the way r from a particle, times r: r·(r·∇)u.
 INLINE tile own_stretch(const scheme_own_t* own, const pair_t* pair) {
@@ -97,11 +108,12 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
   own_change += own->slope.y * pair->ry;
   near_change += slope.y * pair->ry;
 #endif
-  const tile s_left = own->compression + R(0.5) * minmod(own_change, difference);
-  const tile s_right = near - R(0.5) * minmod(near_change, difference);
+  const limits_t most = limits_of(difference), most_approach = limits_of(pair->approach);
+  const tile s_left = own->compression + R(0.5) * minmod(&most, own_change);
+  const tile s_right = near - R(0.5) * minmod(&most, near_change);
   star_t star;
-  star.left = R(0.5) * minmod(own_stretch(own, pair), pair->approach);
-  star.right = pair->approach - R(0.5) * minmod(neighbour_stretch(n, gradient, pair), pair->approach);
+  star.left = R(0.5) * minmod(&most_approach, own_stretch(own, pair));
+  star.right = pair->approach - R(0.5) * minmod(&most_approach, neighbour_stretch(n, gradient, pair));
   tile p_left = fluid_pressure(p, s_left), p_right = fluid_pressure(p, s_right);
 #if ACOUSTIC_DAMPER
   p_left += damper_of(p, own->pressure, own->compression);
@@ -113,9 +125,10 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
 #endif
   const tile z_left = fluid_impedance(p, s_left), z_right = fluid_impedance(p, s_right);
   // along e, velocities are those products over r; at r = 0 there is no pair
-  const tile distance = fmax(pair->distance, (tile)(R(1.0e-6) * p->smoothing_length));
-  const tile inverse = R(1.0) / (distance * (z_left + z_right));
-  star.pressure = inverse * (distance * (z_right * p_left + z_left * p_right) + z_left * z_right * (star.left - star.right));
-  star.advance = inverse * distance * (z_left * star.left + z_right * star.right + distance * (p_left - p_right));
+  const tile sum = z_left + z_right;
+  const tile least = (tile)(R(1.0e-6) * p->smoothing_length);
+  const tile distance = pair->distance > least ? pair->distance : least;  // fmax of two that are not known before takes five instructions
+  star.pressure = (distance * (z_right * p_left + z_left * p_right) + z_left * z_right * (star.left - star.right)) / (distance * sum);
+  star.advance = (z_left * star.left + z_right * star.right + pair->distance * (p_left - p_right)) / sum;
   return star;
 }

@@ -1,8 +1,10 @@
 // The shift δu of each particle by the case's law (shifting/), with the treatment of the free surface of eqs (43)–(48) of the particle shifting paper, for every
 // law: within the support of a particle of the surface nothing is moved across that, and little where λ is small. Nor does it move a particle at a wall into it.
+// What the laws go by surface.cl has found. Neighbours are gone over once more for the nearest particle of the surface, where there may be any: in tiles that
+// are near one of the cells that have some.
+#define TAKES_BLOCKS
 #include "walls.cl"
 #include "around.cl"
-#include "pair.cl"
 #include "shifting.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
@@ -12,18 +14,6 @@ typedef struct {
   __global const real* around;
   tile nearest;                       // r² of the nearest particle of the surface
   tile normal_x, normal_y, normal_z;  // its normal
-#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  tile u, v, w;
-#endif
-#if SHIFT_BY_APPROACH
-  tile approach;  // the greatest square of (u_j − u_i)·e
-#endif
-#if SHIFT_TENSILE || SHIFT_SMOOTHS
-  tile sum_x, sum_y, sum_z;  // Σ (W/W(Δx))⁴ ∇W V, or Σ V ρ_j (u_j − u_i)/(ρ_i + ρ_j) W
-#endif
-#if SHIFT_SMOOTHS
-  tile compression;
-#endif
 } sweep_t;
 
 typedef struct {
@@ -50,39 +40,6 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
   a->normal_x += nearer * (n.x - a->normal_x);
   a->normal_y += nearer * (n.y - a->normal_y);
   a->normal_z += nearer * (n.z - a->normal_z);
-  const tile distance = sqrt(r2);
-  const tile volume = near_volume(&a->near, j);
-  const tile slope_volume = kernel_slopes(p, distance) * volume;
-#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  const pair_t pair = pair_of(&a->near, j, rx, ry, rz, r2, distance, slope_volume, a->u, a->v, a->w);
-#endif
-#if SHIFT_BY_APPROACH
-#if GHOSTS
-  if (!a->near.mirrored)
-#endif
-  {
-    // of the water within the support alone; nothing is at r = 0 but the particle itself
-    const tile within = one_above(slope_volume, (tile)(R(0.0)));
-    a->approach = fmax(a->approach, within * pair.approach * pair.approach / (r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length));
-  }
-#endif
-#if SHIFT_TENSILE
-  // bounded: numbers too small for the processor's normal arithmetic would take a hundred times as long
-  const tile ratio = fmax(kernel_values(p, distance) * p->inverse_kernel_at_spacing, (tile)(R(1.0e-3)));
-  const tile tensile = slope_volume * (ratio * ratio) * (ratio * ratio);
-  a->sum_x += tensile * rx;
-  a->sum_z += tensile * rz;
-#if DIMENSIONS == 3
-  a->sum_y += tensile * ry;
-#endif
-#endif
-#if SHIFT_SMOOTHS
-  const tile near_density = R(1.0) + neighbour_compression(&a->near, p, j, rx, ry, rz);
-  const tile weight = kernel_values(p, distance) * volume * near_density / (R(1.0) + a->compression + near_density);
-  a->sum_x += weight * pair.relative.x;
-  a->sum_y += weight * pair.relative.y;
-  a->sum_z += weight * pair.relative.z;
-#endif
 }
 
 #if SHIFT_TENSILE
@@ -167,35 +124,42 @@ INLINE vector_t under_surface(vector_t shift, real eigenvalue, real depth, vecto
   return times(eigenvalue * eigenvalue, make_vector(shift.x - across * normal.x, shift.y - across * normal.y, shift.z - across * normal.z));
 }
 
+// Whether a particle of the surface may be within the support of the place.
+INLINE bool near_surface(__constant const parameters_t* p, __global const int* surface_cells, real x, real y, real z) {
+#if IMAGES
+  return true;
+#else
+  const real reach = R(1.001) * p->support;
+  const int x0 = cell_coordinate(x - reach, p->inverse_cell, p->cells_x), x1 = cell_coordinate(x + reach, p->inverse_cell, p->cells_x);
+  const int z0 = cell_coordinate(z - reach, p->inverse_cell, p->cells_z), z1 = cell_coordinate(z + reach, p->inverse_cell, p->cells_z);
+#if DIMENSIONS == 3
+  const int y0 = cell_coordinate(y - reach, p->inverse_cell, p->cells_y), y1 = cell_coordinate(y + reach, p->inverse_cell, p->cells_y);
+#else
+  const int y0 = 0, y1 = 0;
+#endif
+  int any = 0;
+  for (int cz = z0; cz <= z1; ++cz)
+    for (int cy = y0; cy <= y1; ++cy)
+      for (int cx = x0; cx <= x1; ++cx) any |= surface_cells[(DIMENSIONS == 3 ? cz * p->cells_y + cy : cz) * p->cells_x + cx];
+  return any != 0;
+#endif
+}
+
 __kernel void shifts(__constant const parameters_t* p, int count, __global const int* slot_start, __global real* state, long stride, real reach,
-                     WALL_ARGUMENTS, __global const real* images, __global const real* around, __global const real* time_step) {
+                     WALL_ARGUMENTS, __global const real* images, __global const int* blocks, __global const real* around,
+                     __global const int* surface_cells, __global const real* time_step) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
+  USE_BLOCK_LIST(a.near)
   a.around = around;
   a.nearest = (tile)(p->support_squared);
-#if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  a.u = own_values(state + FIELD_U * stride, first);
-  a.v = own_values(state + FIELD_V * stride, first);
-  a.w = own_values(state + FIELD_W * stride, first);
-#endif
-#if SHIFT_SMOOTHS
-  a.compression = own_values(state + FIELD_COMPRESSION * stride, first);
-#endif
-  sweep_particles(&a, p, slot_start, images);
+  bool near = false;
+  for (int k = 0; k < a.near.own; ++k) near = near || near_surface(p, surface_cells, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+  if (near) sweep_particles(&a, p, slot_start, images);
   nearest_t nearest[TILE_OWN];
   own_nearest(&a, nearest);
-#if SHIFT_BY_APPROACH
-  real approach[TILE_OWN];
-  own_greatest(a.approach, approach);
-#endif
-#if SHIFT_TENSILE || SHIFT_SMOOTHS
-  places_t sum;
-  own_sums(a.sum_x, sum.x);
-  own_sums(a.sum_y, sum.y);
-  own_sums(a.sum_z, sum.z);
-#endif
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
     wall_sweep_t b = {&walls, velocity_of(state, stride, i), {R(0.0), R(0.0), R(0.0)}, false, {R(0.0), R(0.0), R(0.0)}};
@@ -205,12 +169,15 @@ __kernel void shifts(__constant const parameters_t* p, int count, __global const
     s.velocity = b.velocity;
     s.approach = R(0.0);
 #if SHIFT_BY_APPROACH
-    s.approach = sqrt(approach[k]);
+    s.approach = around[AROUND_APPROACH * stride + i];
 #endif
     s.depth = sqrt(nearest[k].r2) * p->inverse_support;
     s.step = time_step[0];
     s.concentration = make_vector(around[AROUND_CONCENTRATION * stride + i], around[(AROUND_CONCENTRATION + 1) * stride + i],
                                   around[(AROUND_CONCENTRATION + 2) * stride + i]);
+#if SHIFT_TENSILE || SHIFT_SMOOTHS
+    const vector_t law = make_vector(around[AROUND_LAW * stride + i], around[(AROUND_LAW + 1) * stride + i], around[(AROUND_LAW + 2) * stride + i]);
+#endif
 #if SHIFT_TENSILE
     // by a wall its own tensile part would have to balance that of the water; without either, water rests there
     const bool by_wall = around[AROUND_WALLS * stride + i] != R(0.0);
@@ -219,13 +186,13 @@ __kernel void shifts(__constant const parameters_t* p, int count, __global const
 #if !GHOSTS
       if (by_wall) sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
 #endif
-      s.concentration.x += factor * sum.x[k] + b.tensile.x;
-      s.concentration.y += factor * sum.y[k] + b.tensile.y;
-      s.concentration.z += factor * sum.z[k] + b.tensile.z;
+      s.concentration.x += factor * law.x + b.tensile.x;
+      s.concentration.y += factor * law.y + b.tensile.y;
+      s.concentration.z += factor * law.z + b.tensile.z;
     }
 #endif
 #if SHIFT_SMOOTHS
-    s.concentration = make_vector(sum.x[k], sum.y[k], sum.z[k]);
+    s.concentration = law;
 #endif
     vector_t shift = shift_by_law(p, &s);
     if (s.depth < R(1.0)) shift = under_surface(shift, around[AROUND_EIGENVALUE * stride + i], s.depth, nearest[k].normal);

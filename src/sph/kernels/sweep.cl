@@ -192,13 +192,29 @@ INLINE block_t block_of(const neighbours_t* near, const int* run, int gone, tile
   return b;
 }
 
+#if HAS_BLOCK_LIST && defined(KEEPS_BLOCKS)
+#define WITH_BLOCK_LIST 1
+#else
+#define WITH_BLOCK_LIST 0
+#endif
+
 INLINE void sweep_blocks(sweep_t* sums, __constant const parameters_t* p, const int* list, int blocks, tile x, tile y, tile z) {
   const int* run = list;
+#if WITH_BLOCK_LIST
+  int kept = 0;
+#endif
   for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
     const block_t b = block_of(&sums->near, run, gone, x, y, z);
+#if WITH_BLOCK_LIST
+    sums->near.blocks[1 + min(kept, BLOCK_LIST)] = b.j * TILE_NEAR + TILE_NEAR - min(b.left, TILE_NEAR);
+    kept += ANY_LANE(b.r2 < (tile)(p->support_squared)) ? 1 : 0;
+#endif
     add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
     run += b.left <= TILE_NEAR ? 2 : 0;
   }
+#if WITH_BLOCK_LIST
+  sums->near.blocks[0] = kept <= BLOCK_LIST ? kept : -1;
+#endif
 }
 
 #if THIN_WALLS
@@ -328,7 +344,39 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
     }
     sweep_box(sums, p, slot_start, box, at, at_x, y, z);
   }
+#if WITH_BLOCK_LIST
+  if (!together) sums->near.blocks[0] = -1;  // each particle has blocks of its own
 #endif
+#endif
+}
+#endif
+
+#if HAS_BLOCK_LIST && defined(TAKES_BLOCKS)
+// Those of the list, which add to each sum what all would: without a pair a block adds zeros. The sums are the loop's own, which the call of the other walk
+// would else keep in memory.
+INLINE void sweep_listed(sweep_t* all_sums, __constant const parameters_t* p, const places_t* at) {
+  sweep_t sums = *all_sums;
+  const tile x = spread_own(at->x), y = spread_own(at->y), z = spread_own(at->z);
+  __global const int* list = sums.near.blocks;
+  const int count = list[0];
+  for (int k = 1; k <= count; ++k) {
+    const uint block = list[k];
+    const int j = block / TILE_NEAR;
+    const tile rx = near_way(&sums.near, 0, j, x);
+#if DIMENSIONS == 3
+    const tile ry = near_way(&sums.near, 1, j, y);
+#else
+    const tile ry = (tile)(R(0.0));
+#endif
+    const tile rz = near_way(&sums.near, 2, j, z);
+    add_particle(&sums, p, j, rx, ry, rz, rx * rx + ry * ry + rz * rz + beyond_end(TILE_NEAR - block % TILE_NEAR));
+  }
+  *all_sums = sums;
+}
+
+// Tiles in spray, and those with more neighbours than the list has room for.
+SELDOM void sweep_unlisted(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
+  sweep_rows(sums, p, slot_start, at);
 }
 #endif
 
@@ -409,6 +457,11 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
     }
     sweep_rows(sums, p, slot_start, &at);
   }
+#elif HAS_BLOCK_LIST && defined(TAKES_BLOCKS)
+  if (sums->near.blocks[0] >= 0)
+    sweep_listed(sums, p, &at);
+  else
+    sweep_unlisted(sums, p, slot_start, &at);
 #else
   sweep_rows(sums, p, slot_start, &at);
 #endif

@@ -149,6 +149,16 @@ INLINE tile tile_of(const real* lanes) { return vload16(0, lanes); }
 // 1 where x is above the bound, else 0. (step() of some compilers goes through the lanes one by one.)
 INLINE tile one_above(tile x, tile bound) { return x > bound ? (tile)(R(1.0)) : (tile)(R(0.0)); }
 
+// Whether a comparison of tiles is true of any lane. any() of pocl goes through the lanes by branches.
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or)
+#define ANY_LANE(comparison) (__builtin_reduce_or(comparison) != 0)
+#endif
+#endif
+#ifndef ANY_LANE
+#define ANY_LANE(comparison) any(comparison)
+#endif
+
 // The greatest over the candidates, of each own particle.
 INLINE void own_greatest(tile a, real* greatest) {
 #if TILE_LANES == 1

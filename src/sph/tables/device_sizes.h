@@ -46,7 +46,9 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(around_surface, 5, "1: on the free surface") \
   ROW(around_concentration, 6, "∇C, walls included: x, y, z") \
   ROW(around_walls, 9, "Σ ∫ W dS: 0 where no wall is within the support") \
-  ROW(around_count, 10, "values of a particle") \
+  ROW(around_approach, 10, "m/s: the greatest speed at which a neighbour comes nearer or goes away, for laws that go by it") \
+  ROW(around_law, 11, "what laws sum over neighbours beside ∇C: x, y, z") \
+  ROW(around_count, 14, "values of a particle") \
   /* regions of the grid about an owner of walls, in which particles may touch it; gone through in runs of slots along x */ \
   ROW(region_run, 32, "slots of a run") \
   ROW(region_owner, 0, "whose") \

@@ -22,7 +22,8 @@ INLINE tile_vector_t shift_of(const neighbours_t* n, int j) {
 
 // A component of u_l − u_i or, from the other side, of u_r − u_i.
 INLINE tile side_of_middle(tile from_own, tile own_change, tile near_change, tile difference) {
-  const tile left = R(0.5) * minmod(own_change, difference), right = difference - R(0.5) * minmod(near_change, difference);
+  const limits_t most = limits_of(difference);
+  const tile left = R(0.5) * minmod(&most, own_change), right = difference - R(0.5) * minmod(&most, near_change);
   return right + from_own * (left - right);
 }
 
