@@ -470,7 +470,7 @@ std::vector<char> OpeningFlows::save() const {
 }
 
 void OpeningFlows::restore(const std::vector<char>& bytes) {
-  constexpr std::ptrdiff_t numbers = 9;  // of an opening, besides its columns and the water before it
+  constexpr std::ptrdiff_t numbers = 9;                // of an opening, besides its columns and the water before it
   constexpr double most_particles = 9007199254740992;  // 2⁵³, up to which a double counts one by one
   std::vector<double> values(bytes.size() / sizeof(double));
   if (bytes.size() % sizeof(double) != 0) throw Error(not_of_this_case);

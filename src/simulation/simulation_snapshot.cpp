@@ -118,7 +118,8 @@ void Simulation::Parts::check_clocks(const Snapshot& snapshot) const {
   const double longest = discretisation.support / discretisation.sound_speed;  // of a step, in which sound passes a part of this
   if (!(snapshot.time >= 0) || !std::isfinite(snapshot.time)) throw Error("its time is " + number(snapshot.time) + " s.");
   if (!(snapshot.time_step > 0) || snapshot.time_step > longest)
-    throw Error("its time step is " + number(snapshot.time_step) + " s, but one of this case is above 0 and at most " + number(longest) + " s.");
+    throw Error("its time step is " + number(snapshot.time_step) + " s, but one of this case is above 0 and at most " + number(longest) +
+                " s.");
   if (!recorder.can_stand_at(snapshot.clocks, snapshot.time, longest))
     throw Error("its instruments are not where they are at its time, " + number(snapshot.time) + " s.");
 }

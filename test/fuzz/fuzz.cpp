@@ -323,9 +323,9 @@ class Kinds {
 
   static double awkward_value(Mutation& mutation) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    static const std::vector<double> values{0,    -0.0, 1,    -1,   0.5,          1e-3,     -1e-3, 10, -10,
-                                            1e6,  1e9,  1e15, 1e39, 4294967296.0, 1e300,    1e-300, 1e-39, -1e9,
-                                            -1e300, std::nan(""), infinity, -infinity};
+    static const std::vector<double> values{0,     -0.0, 1,      -1,           0.5,      1e-3,         -1e-3, 10,
+                                            -10,   1e6,  1e9,    1e15,         1e39,     4294967296.0, 1e300, 1e-300,
+                                            1e-39, -1e9, -1e300, std::nan(""), infinity, -infinity};
     return mutation.one_of(values);
   }
 

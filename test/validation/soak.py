@@ -59,7 +59,11 @@ class Raw:
         code, _, protocol = self.node.requestTopic("/raw", NAME + "/" + topic, [["TCPROS"]])
         if code != 1:
             raise OSError("no %s" % topic)
-        return socket.create_connection((protocol[1], protocol[2]), 5)
+        connection = socket.socket()
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)  # so that what is not read stays with the node
+        connection.settimeout(5)
+        connection.connect((protocol[1], protocol[2]))
+        return connection
 
     def subscribe(self, topic):
         connection = self.connect(topic)
