@@ -21,8 +21,12 @@ foreach(library ${rooms})
     target_link_libraries(${room}_test ${library} ${GTEST_BOTH_LIBRARIES})
   endif()
   target_compile_definitions(${room}_test PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
-  # What is slow in them is the libraries'; an optimiser with a sanitizer's checks in between takes minutes a file.
-  target_compile_options(${room}_test PRIVATE $<IF:$<BOOL:${WAVETANK_SANITIZE}>,-O0,-O1>)
+  # What is slow in them is the libraries'; with a sanitizer's checks in between an optimiser takes minutes a file.
+  if(WAVETANK_SANITIZE)
+    target_compile_options(${room}_test PRIVATE -O0)
+  else()
+    target_compile_options(${room}_test PRIVATE -O1)
+  endif()
   # What most of a test's compilation was spent on, once for all rooms.
   if(NOT tests_with_headers)
     set(tests_with_headers ${room}_test)
