@@ -21,7 +21,12 @@ foreach(library ${rooms})
     target_link_libraries(${room}_test ${library} ${GTEST_BOTH_LIBRARIES})
   endif()
   target_compile_definitions(${room}_test PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
-  target_compile_options(${room}_test PRIVATE -O1)  # what is slow in them is the libraries'
+  # What is slow in them is the libraries'; with a sanitizer's checks in between an optimiser takes minutes a file.
+  if(WAVETANK_SANITIZE)
+    target_compile_options(${room}_test PRIVATE -O0)
+  else()
+    target_compile_options(${room}_test PRIVATE -O1)
+  endif()
   # What most of a test's compilation was spent on, once for all rooms.
   if(NOT tests_with_headers)
     set(tests_with_headers ${room}_test)
@@ -76,7 +81,7 @@ add_test(NAME oclgrind_sph COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/oclgrind/wat
 
 # Damaged inputs of every kind; scripts/validate fuzz takes more of them.
 add_executable(fuzz EXCLUDE_FROM_ALL test/fuzz/fuzz.cpp)
-target_link_libraries(fuzz wavetank_simulation)
+target_link_libraries(fuzz wavetank_simulation ZLIB::ZLIB)
 target_compile_definitions(fuzz PRIVATE WAVETANK_SOURCE_DIRECTORY="${CMAKE_CURRENT_SOURCE_DIR}")
 if(WAVETANK_STANDALONE)
   set_target_properties(fuzz PROPERTIES EXCLUDE_FROM_ALL FALSE)
@@ -86,6 +91,7 @@ if(TARGET tests)
 endif()
 add_test(NAME fuzz COMMAND fuzz --count 200 cases numbers overrides stl dae ply motions urdf snapshots expressions)
 add_test(NAME fuzz_obj COMMAND fuzz --count 40 obj)  # of which each makes assimp fill some 50 MB of buffers
+add_test(NAME fuzz_restored COMMAND fuzz --count 100 restored)  # whose simulations take steps
 
 # Longer runs, which scripts/validate starts, and what draws the picture of docs/walls.md.
 foreach(program tank_at_rest step_cost packed_particles free_flows jet_on_plate channel_flow)
@@ -133,6 +139,9 @@ if(TARGET wavetank_node)
     ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/install_test.py -v)
   add_test(NAME validation_compare_motion_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/compare_motion_test.py -v)
   add_test(NAME validation_wave_kinds_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/wave_kinds_test.py -v)
+  # A short soak, with a ROS master of its own; memory and steps are for scripts/validate soak.
+  add_test(NAME node_soak_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/soak.py
+    $<TARGET_FILE:wavetank_node> ${CMAKE_BINARY_DIR}/soak 12 --behaviour)
   file(GLOB live_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test/node/*.test)
   foreach(live_test ${live_tests})
     add_rostest(${live_test})

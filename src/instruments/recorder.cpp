@@ -401,6 +401,14 @@ std::array<std::uint64_t, Recorder::instrument_count> Recorder::clock_indices() 
   return indices;
 }
 
+bool Recorder::can_stand_at(const std::array<std::uint64_t, instrument_count>& indices, double time, double slack) const {
+  for (std::size_t k = 0; k < instrument_count; ++k) {
+    const double rate = instruments_[k].clock.rate();
+    if (std::abs(static_cast<double>(indices[k]) / rate - time) > 1.0 / rate + slack) return false;
+  }
+  return true;
+}
+
 void Recorder::set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices) {
   for (std::size_t k = 0; k < instrument_count; ++k) {
     instruments_[k].clock.set_index(indices[k]);
@@ -413,6 +421,8 @@ void Recorder::set_memory(const std::vector<double>& memory) {
   if (!memory.empty() && memory.size() != 3 * imus_.size())
     throw Error("the snapshot's instruments have " + std::to_string(memory.size()) + " numbers, but this case's have " +
                 std::to_string(3 * imus_.size()) + ".");
+  if (!std::all_of(memory.begin(), memory.end(), [](double value) { return std::isfinite(value); }))
+    throw Error("the snapshot's instruments have a number that is not finite.");
   imu_velocities_ = memory;
 }
 

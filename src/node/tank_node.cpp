@@ -14,7 +14,8 @@ namespace wavetank {
 
 namespace {
 
-constexpr std::uint32_t sample_queue = 100000;  ///< messages a subscriber may lag behind before samples are lost to it
+/// Messages a subscriber may lag behind before samples are lost to it: 20 s at 1 kHz, and of one that never reads some 4 MB a topic.
+constexpr std::uint32_t sample_queue = 20000;
 constexpr auto clock_period = std::chrono::milliseconds(10);
 constexpr auto recorder_pause = std::chrono::milliseconds(500);  ///< between a recorder's first and last subscription
 

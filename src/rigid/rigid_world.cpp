@@ -12,6 +12,12 @@ namespace {
 
 constexpr double mark = 4.0919e5;  // opens what save() returns
 
+std::vector<double> values_of(const std::vector<char>& saved) {
+  std::vector<double> values(saved.size() / sizeof(double));
+  std::memcpy(values.data(), saved.data(), values.size() * sizeof(double));
+  return values;
+}
+
 /// What a wrench alone makes of a free body, m/s²: α = I⁻¹ τ at the radius of gyration about it, √(α·I α/(m α²)), is √(τ·I⁻¹ τ/m).
 double acceleration_of(const RigidOwner& body, const OutsideWrench& wrench) {
   const Inertia& inertia = body.inertia;
@@ -223,10 +229,18 @@ void RigidWorld::restore(const std::vector<char>& bytes) {
   const std::vector<char> own = save();
   if (bytes.size() != own.size() || std::memcmp(bytes.data(), own.data(), 3 * sizeof(double)) != 0)
     throw Error("the saved motion is not of this case's bodies");
-  std::vector<double> values(bytes.size() / sizeof(double));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
+  const std::vector<double> values = values_of(bytes);
+  if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
+    parts_->take(values);
+    if (parts_->turns_are_turns()) return;
+    parts_->take(values_of(own));
+  }
+  throw Error("the saved motion has a place, a velocity or a turn that no body can have");
+}
+
+void RigidWorld::Parts::take(const std::vector<double>& values) {
   const double* next = values.data() + 3;
-  for (RigidOwner& owner : parts_->owners) {
+  for (RigidOwner& owner : owners) {
     owner.state = take_state(next);
     if (owner.absorption) {
       owner.absorption->restore(next);
@@ -245,13 +259,19 @@ void RigidWorld::restore(const std::vector<char>& bytes) {
       wrench.until = *next++;
     }
   }
-  for (Joint& joint : parts_->joints) {
+  for (Joint& joint : joints) {
     joint.angle = *next++;
     if (!joint.is_commanded()) continue;
     joint.command.value = *next++;
     joint.command.at = *next++;
     joint.command.given = *next++ != 0;
   }
+}
+
+bool RigidWorld::Parts::turns_are_turns() const {
+  constexpr double rounding = 1e-6;  // of a turn's length
+  return std::all_of(owners.begin(), owners.end(),
+                     [](const RigidOwner& owner) { return std::abs(owner.state.orientation.norm() - 1) < rounding; });
 }
 
 }  // namespace wavetank

@@ -38,6 +38,10 @@ struct RigidWorld::Parts {
   /// What an effort of a hinge (N·m) or a slider (N) alone would make of them, m/s²: about a hinge at their radius of gyration about it.
   double acceleration_by(std::size_t joint, const JointEnd& end, double effort) const;
   RigidOwner& checked(std::size_t owner, Motion motion, const char* word);
+  /// The values that RigidWorld::save wrote.
+  void take(const std::vector<double>& values);
+  /// Whether each owner's orientation is of length 1.
+  bool turns_are_turns() const;
 
   int dimensions;
   Vector3d gravity;

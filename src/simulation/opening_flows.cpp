@@ -18,6 +18,7 @@ constexpr double past_the_back = 0.05;    // spacings behind the pocket's back, 
 constexpr double fastest_of_sound = 0.1;  // of the speed of sound
 constexpr double slow_return = 20;        // fillings of an inlet's pocket, in which it makes good what it is behind,
 constexpr double usual_of_sound = 0.05;   // at a speed of so much of the speed of sound
+constexpr char not_of_this_case[] = "the snapshot's openings are not those of this case.";
 
 /// Where a wall's motion has carried it.
 Opening moved(Opening opening, const WallMotion& wall, const Vector3d& reference) {
@@ -72,19 +73,24 @@ void WaterBefore::save(std::vector<double>& to) const {
   }
 }
 
-void WaterBefore::restore(std::vector<double>::const_iterator& from, std::size_t columns) {
+void WaterBefore::restore(std::vector<double>::const_iterator& from, std::vector<double>::const_iterator end, std::size_t columns) {
+  const std::size_t left = static_cast<std::size_t>(end - from), each = 1 + 2 * columns;
+  if (left == 0 || !(*from >= 0) || *from > static_cast<double>((left - 1) / each)) throw Error(not_of_this_case);
   const auto count = static_cast<std::size_t>(*from++);
-  times_.clear();
-  values_.clear();
+  std::vector<double> times;
+  std::vector<Values> all;
   for (std::size_t k = 0; k < count; ++k) {
-    times_.push_back(*from++);
+    times.push_back(*from++);
     Values values;
     for (std::vector<double>* of : {&values.speed, &values.pressure}) {
       of->assign(from, from + static_cast<std::ptrdiff_t>(columns));
       from += static_cast<std::ptrdiff_t>(columns);
     }
-    values_.push_back(std::move(values));
+    all.push_back(std::move(values));
   }
+  if (!std::is_sorted(times.begin(), times.end())) throw Error(not_of_this_case);
+  times_ = std::move(times);
+  values_ = std::move(all);
 }
 
 OpeningFlows::OpeningFlows(const Case& scene, const Layout& layout, const Discretisation& discretisation, std::vector<FlowLaw> laws,
@@ -464,21 +470,39 @@ std::vector<char> OpeningFlows::save() const {
 }
 
 void OpeningFlows::restore(const std::vector<char>& bytes) {
-  coming_to_.clear();
+  constexpr std::ptrdiff_t numbers = 9;                // of an opening, besides its columns and the water before it
+  constexpr double most_particles = 9007199254740992;  // 2⁵³, up to which a double counts one by one
   std::vector<double> values(bytes.size() / sizeof(double));
+  if (bytes.size() % sizeof(double) != 0) throw Error(not_of_this_case);
   if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) throw Error(not_of_this_case);
+  std::vector<Place> places = places_;
+  std::vector<OpeningState> states = states_;
   auto next = values.cbegin();
+  const auto need = [&](std::ptrdiff_t count) {
+    if (values.cend() - next < count) throw Error(not_of_this_case);
+  };
   for (std::size_t o = 0; o < openings_.size(); ++o) {
-    Place& place = places_[o];
-    OpeningState& state = states_[o];
+    Place& place = places[o];
+    OpeningState& state = states[o];
+    need(static_cast<std::ptrdiff_t>(place.phase.size()));
     for (double& phase : place.phase) phase = *next++;
-    place.before.restore(next, place.phase.size());
+    place.before.restore(next, values.cend(), place.phase.size());
+    need(numbers);
     for (double* value :
          {&place.commanded, &place.wanted, &place.command_time, &state.discharge, &state.volume, &state.mass_in, &state.mass_out})
       *value = *next++;
-    state.particles_in = static_cast<std::uint64_t>(*next++);
-    state.particles_out = static_cast<std::uint64_t>(*next++);
+    for (std::uint64_t* count : {&state.particles_in, &state.particles_out}) {
+      if (!(*next >= 0) || *next > most_particles) throw Error(not_of_this_case);
+      *count = static_cast<std::uint64_t>(*next++);
+    }
+    for (const double phase : place.phase)
+      if (std::abs(phase) > spacing_) throw Error(not_of_this_case);
   }
+  if (next != values.cend()) throw Error(not_of_this_case);
+  coming_to_.clear();
+  places_ = std::move(places);
+  states_ = std::move(states);
 }
 
 }  // namespace wavetank

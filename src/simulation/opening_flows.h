@@ -22,8 +22,8 @@ class WaterBefore {
   /// In straight lines between instants; before the first, that.
   Values at(double time) const;
   void save(std::vector<double>& to) const;
-  /// Reads what save wrote, of so many columns.
-  void restore(std::vector<double>::const_iterator& from, std::size_t columns);
+  /// Reads what save wrote, of so many columns. Throws Error, and stays as it was, if that ends before `end` or is no account of instants.
+  void restore(std::vector<double>::const_iterator& from, std::vector<double>::const_iterator end, std::size_t columns);
 
  private:
   std::vector<double> times_;
@@ -65,6 +65,7 @@ class OpeningFlows {
   const std::vector<OpeningState>& states() const { return states_; }
 
   std::vector<char> save() const;
+  /// Throws Error, and stays as it was, for what these openings cannot have saved.
   void restore(const std::vector<char>& bytes);
 
  private:

@@ -298,6 +298,7 @@ void Simulation::reset() {
   parts.solver->restore(parts.initial_fluid);
   parts.time = 0;
   parts.restore_bodies(parts.initial_bodies);
+  parts.place_walls();
   parts.openings.restore(parts.initial_openings);
   parts.time_step = parts.initial_time_step;
   parts.step = 0;

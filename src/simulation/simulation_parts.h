@@ -17,6 +17,8 @@
 
 namespace wavetank {
 
+struct Snapshot;
+
 /// What a simulation is made of. Its members are in simulation.cpp (start and steps), simulation_watchdog.cpp, simulation_snapshot.cpp and
 /// estimate.cpp.
 struct Simulation::Parts {
@@ -62,7 +64,11 @@ struct Simulation::Parts {
   std::string when() const;  ///< for messages
   /// Bodies and what the fluid has been told of them, as bytes; and back.
   std::vector<char> saved_bodies() const;
+  /// Throws Error, and leaves them as they were, for bytes of others.
   void restore_bodies(const std::vector<char>& bytes);
+  void check_clocks(const Snapshot& snapshot) const;
+  /// Tells the solver where walls are, at the present time.
+  void place_walls();
 
   SimulationOptions options;
   Stopwatch compiling;

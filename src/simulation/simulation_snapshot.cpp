@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "fnv_hash.h"
 #include "simulation_parts.h"
 #include "snapshot.h"
+#include "texts.h"
+#include "wavetank/common/error.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/scene/case_reader.h"
@@ -55,6 +59,15 @@ std::string flow_of(Case scene, const Layout& layout, const RigidWorld& world, c
   return write_case(scene) + "geometry " + std::to_string(geometry) + "\n";
 }
 
+/// What was there before; where that had gone wrong already there is nothing to go back to.
+template <class Restore>
+void put_back(const Restore& restore) {
+  try {
+    restore();
+  } catch (const Error&) {
+  }
+}
+
 }  // namespace
 
 std::vector<char> Simulation::Parts::saved_bodies() const {
@@ -70,9 +83,14 @@ void Simulation::Parts::restore_bodies(const std::vector<char>& bytes) {
   std::vector<double> felt(coupling.save().size());
   const std::size_t size = felt.size() * sizeof(double);
   if (bytes.size() < size) throw Error("the snapshot's bodies are not those of this case.");
-  std::memcpy(felt.data(), bytes.data(), size);
+  if (size > 0) std::memcpy(felt.data(), bytes.data(), size);
+  if (!std::all_of(felt.begin(), felt.end(), [](double value) { return std::isfinite(value); }))
+    throw Error("the snapshot's bodies have an acceleration that is not finite.");
   world.restore({bytes.begin() + static_cast<std::ptrdiff_t>(size), bytes.end()});
   coupling.restore(felt);
+}
+
+void Simulation::Parts::place_walls() {
   coupling.set_time(time);
   if (world.anything_moves()) solver->set_wall_motions(coupling.now());
 }
@@ -95,6 +113,17 @@ void Simulation::save(const std::string& path) const {
   write_snapshot(path, snapshot);
 }
 
+/// Throws Error for times that no step of the case can have ended with: the recorder would make samples without end.
+void Simulation::Parts::check_clocks(const Snapshot& snapshot) const {
+  const double longest = discretisation.support / discretisation.sound_speed;  // of a step, in which sound passes a part of this
+  if (!(snapshot.time >= 0) || !std::isfinite(snapshot.time)) throw Error("its time is " + number(snapshot.time) + " s.");
+  if (!(snapshot.time_step > 0) || snapshot.time_step > longest)
+    throw Error("its time step is " + number(snapshot.time_step) + " s, but one of this case is above 0 and at most " + number(longest) +
+                " s.");
+  if (!recorder.can_stand_at(snapshot.clocks, snapshot.time, longest))
+    throw Error("its instruments are not where they are at its time, " + number(snapshot.time) + " s.");
+}
+
 void Simulation::restore(const std::string& path) {
   Parts& parts = *parts_;
   const Snapshot snapshot = read_snapshot(path);
@@ -102,23 +131,30 @@ void Simulation::restore(const std::string& path) {
     throw Error("the snapshot " + path +
                 " belongs to another case: everything but title, duration, device and publishing must be the same, meshes and records of "
                 "motions and flows too.");
+  const std::vector<char> bodies = parts.saved_bodies(), openings = parts.openings.save();
+  const std::vector<double> memory = parts.recorder.memory();
   try {
+    parts.check_clocks(snapshot);
+    parts.recorder.set_memory(snapshot.instruments);
+    parts.openings.restore(snapshot.openings);
+    parts.restore_bodies(snapshot.bodies);
     parts.solver->restore(snapshot.fluid);
   } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
+    put_back([&] { parts.recorder.set_memory(memory); });
+    put_back([&] { parts.openings.restore(openings); });
+    put_back([&] { parts.restore_bodies(bodies); });
+    throw Error("the snapshot " + path + " cannot be gone on from: " + error.what());
   }
   if (snapshot.device != parts.kind_of_device())
     log(LogLevel::warning, "the snapshot " + path + " was written on " + snapshot.device + ": it continues, but not bit for bit.");
   parts.time = snapshot.time;
-  parts.restore_bodies(snapshot.bodies);
-  parts.openings.restore(snapshot.openings);
+  parts.place_walls();
   parts.time_step = snapshot.time_step;
   parts.step = snapshot.step;
   parts.guard_hits = snapshot.guard_hits;
   parts.report = StepReport{};
   parts.report.time_step = snapshot.time_step;
   parts.recorder.set_clock_indices(snapshot.clocks);
-  parts.recorder.set_memory(snapshot.instruments);
 }
 
 }  // namespace wavetank

@@ -69,7 +69,9 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
       open_ || part_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
   const double next_id = blocks.get<double>(next_id_block, 1)[0];
   const bool ascending = std::adjacent_find(id.begin(), id.end(), std::greater_equal<>()) == id.end();
-  if (!ascending || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
+  constexpr double most_ids = 4294967296;  // 2³², of whole numbers of 32 bits
+  const bool counts = next_id >= 0 && next_id <= most_ids;
+  if (!ascending || !counts || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
     throw Error("the snapshot's particles are not those of this case: their ids are others.");
   std::vector<std::pair<const FieldRow*, std::vector<std::vector<Real>>>> fields;
   for (const FieldRow& row : fields_.rows()) {

@@ -3,16 +3,21 @@
 //   fuzz [--count N] [--seed FIRST] [--keep FOLDER] [--say] [KIND]...
 // --say: what became of each, too.
 #include <dirent.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -106,7 +111,7 @@ class Kinds {
   }
 
   std::vector<std::string> names() const {
-    return {"cases", "numbers", "overrides", "stl", "obj", "dae", "ply", "motions", "urdf", "snapshots", "expressions"};
+    return {"cases", "numbers", "overrides", "stl", "obj", "dae", "ply", "motions", "urdf", "snapshots", "restored", "expressions"};
   }
 
   Input make(const std::string& kind, Mutation& mutation) {
@@ -120,6 +125,7 @@ class Kinds {
     if (kind == "motions") return motion(mutation);
     if (kind == "urdf") return robot(mutation);
     if (kind == "snapshots") return snapshot(mutation);
+    if (kind == "restored") return restored(mutation);
     return expression(mutation);
   }
 
@@ -251,6 +257,146 @@ class Kinds {
     return bytes;
   }
 
+  /// Snapshots whose checksums are right, but not what they hold: restored into a simulation, which then goes on.
+  Input restored(Mutation& mutation) {
+    const std::string path = scratch_.file("m.snapshot");
+    if (going_.empty()) going_ = state_of_a_run();
+    std::string bytes = going_;
+    if (mutation.chance(20)) {
+      bytes = with_checksum(mutation.bytes(bytes));
+    } else if (mutation.damages()) {
+      scratch_.write("m.snapshot", going_);
+      Snapshot snapshot = read_snapshot(path);
+      for (std::size_t k = 1 + mutation.below(2); k > 0; --k) damage(snapshot, mutation);
+      write_snapshot(path, snapshot);
+      bytes = content_of(path);
+    }
+    return {"m.snapshot", bytes, [this, path] { restore_and_go_on(path); }, {"m.snapshot"}};
+  }
+
+  std::unique_ptr<Simulation> new_run() const {
+    const std::string text = content_of(package / "test/fuzz/restored.yaml");
+    return std::make_unique<Simulation>(read_case_text(text, "restored.yaml", {}, {resolve, {}}));
+  }
+
+  std::string bytes_of(const Simulation& simulation) const {
+    const std::string path = scratch_.file("now.snapshot");
+    simulation.save(path);
+    const std::string bytes = content_of(path);
+    fs::remove(path);
+    return bytes;
+  }
+
+  /// In a process of its own: one that has begun a device's threads cannot make others that use it.
+  std::string state_of_a_run() const {
+    const ChildResult result = run_in_child(
+        [this] {
+          const std::unique_ptr<Simulation> simulation = new_run();
+          for (int k = 0; k < 40; ++k) simulation->advance();
+          return bytes_of(*simulation);
+        },
+        {most_memory, longest, 4 * longest});
+    if (result.end != ChildResult::End::done) throw Error("the case of the fuzz does not run: " + result.bytes);
+    return result.bytes;
+  }
+
+  /// A refusal changes nothing; what is accepted goes on, or the watchdog stops it.
+  void restore_and_go_on(const std::string& path) {
+    if (!run_) run_ = new_run();
+    run_->take_samples();
+    const std::string before = bytes_of(*run_);
+    try {
+      run_->restore(path);
+    } catch (const Error&) {
+      if (bytes_of(*run_) != before) throw std::logic_error("it was refused, but the simulation is not what it was");
+      throw;
+    }
+    try {
+      for (int k = 0; k < 3; ++k) run_->advance();
+    } catch (const Violation&) {
+    }
+    constexpr std::size_t most = 1000;  // samples of three steps
+    demand(run_->take_samples().pressures.size() < most, "its samples have no end");
+    run_->restore(scratch_.write("m.snapshot", going_));
+    demand(bytes_of(*run_) == going_, "then a sound one is not restored to what it was");
+  }
+
+  static double awkward_value(Mutation& mutation) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    static const std::vector<double> values{0,     -0.0, 1,      -1,           0.5,      1e-3,         -1e-3, 10,
+                                            -10,   1e6,  1e9,    1e15,         1e39,     4294967296.0, 1e300, 1e-300,
+                                            1e-39, -1e9, -1e300, std::nan(""), infinity, -infinity};
+    return mutation.one_of(values);
+  }
+
+  template <class Value>
+  static void damage_a_value(std::vector<char>& bytes, std::size_t begin, std::size_t size, Mutation& mutation) {
+    if (size < sizeof(Value)) return;
+    const auto value = static_cast<Value>(awkward_value(mutation));
+    std::memcpy(bytes.data() + begin + sizeof value * mutation.below(size / sizeof value), &value, sizeof value);
+  }
+
+  static void damage(Snapshot& snapshot, Mutation& mutation) {
+    const auto numbers = [&](std::vector<char>& bytes) {
+      if (mutation.chance(90)) return damage_a_value<double>(bytes, 0, bytes.size(), mutation);
+      const std::string damaged = mutation.bytes({bytes.begin(), bytes.end()});
+      bytes.assign(damaged.begin(), damaged.end());
+    };
+    switch (mutation.below(9)) {
+      case 0:
+        snapshot.time = awkward_value(mutation);
+        break;
+      case 1:
+        snapshot.time_step = awkward_value(mutation);
+        break;
+      case 2:
+        snapshot.clocks[mutation.below(snapshot.clocks.size())] ^= std::uint64_t(1) << mutation.below(64);
+        break;
+      case 3:
+        if (mutation.chance(50) || snapshot.instruments.empty())
+          snapshot.instruments.push_back(1);
+        else
+          mutation.one_of(snapshot.instruments) = awkward_value(mutation);
+        break;
+      case 4:
+        numbers(snapshot.bodies);
+        break;
+      case 5:
+        numbers(snapshot.openings);
+        break;
+      default:
+        damage_fluid(snapshot.fluid, mutation);
+    }
+  }
+
+  /// A value of a block of the solver's state; the block's checksum is made anew. See SnapshotBlocks for what lies where.
+  static void damage_fluid(std::vector<char>& bytes, Mutation& mutation) {
+    struct Block {
+      std::size_t begin, size;
+      std::uint32_t value_size;
+    };
+    std::vector<Block> blocks;
+    const auto value_at = [&](std::size_t at, auto value) {
+      std::memcpy(&value, bytes.data() + at, sizeof value);
+      return value;
+    };
+    for (std::size_t at = 0; at < bytes.size();) {
+      at += sizeof(std::uint32_t) + value_at(at, std::uint32_t());
+      const auto value_size = value_at(at, std::uint32_t());
+      const auto size = static_cast<std::size_t>(value_at(at + sizeof(std::uint32_t), std::uint64_t()));
+      at += 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+      if (size > 0) blocks.push_back({at, size, value_size});
+      at += size;
+    }
+    const Block& block = mutation.one_of(blocks);
+    if (block.value_size == sizeof(double))
+      damage_a_value<double>(bytes, block.begin, block.size, mutation);
+    else
+      damage_a_value<float>(bytes, block.begin, block.size, mutation);
+    const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data() + block.begin), block.size));
+    std::memcpy(bytes.data() + block.begin - sizeof sum, &sum, sizeof sum);
+  }
+
   Input expression(Mutation& mutation) const {
     static const std::vector<std::string> sound{"0.02*cos(2*pi*x)",       "sin(2*pi*x)*cos(2*pi*z)", "t < 1 ? t : 2",
                                                 "exp(-x^2)+max(x, y, z)", "(1+(2+(3+x)))",           "if(x>0, 1, 0)"};
@@ -352,6 +498,8 @@ class Kinds {
   const std::vector<std::string> places_{"case.yaml", "/", "body '", "joint '", "mesh '", "the tank", "gauge", "probe", "section '"};
   std::vector<std::string> cases_, small_cases_, whole_cases_, robots_, solids_, keys_;
   std::string snapshot_;
+  std::string going_;                ///< bytes of a snapshot that a run goes on from
+  std::unique_ptr<Simulation> run_;  ///< of this process
 };
 
 constexpr char accepted[] = "accepted";

@@ -68,6 +68,10 @@ class Mutation {
   const Value& one_of(const std::vector<Value>& values) {
     return values[below(values.size())];
   }
+  template <class Value>
+  Value& one_of(std::vector<Value>& values) {
+    return values[below(values.size())];
+  }
   bool chance(int percent) { return below(100) < static_cast<std::size_t>(percent); }
 
   /// Of any size that a case may have, now and then with its sign changed.

@@ -1,7 +1,11 @@
 // Openings: what comes in and leaves, at rest and in a current.
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 
+#include "../../src/simulation/snapshot.h"
 #include "simulation_fixture.h"
 #include "wavetank/scene/methods.h"
 
@@ -525,6 +529,58 @@ TEST_F(Openings, HaveTheProfileOfAnExpression) {
             std::string::npos);
   EXPECT_NE(error_of([&] { Simulation simulation(channel("z - 0.1")); }).find("opening 'start': its velocity at t = 0 s is -0.08"),
             std::string::npos);
+}
+
+// Snapshots whose checksums are right, but which no run of the case can have written: refused before anything is set.
+TEST_F(Openings, AndBodiesAndClocksRefuseWhatCannotHaveBeenSaved) {
+  Case scene = channel("0.2");
+  BodyCase box;
+  box.name = "box";
+  box.shape = Box{Vector3d(0.5, -0.1, 0.3), Vector3d(0.7, 0.1, 0.5)};
+  box.motion = Motion::free;
+  box.rigid.density = 500;
+  scene.bodies = {box};
+  Simulation simulation(scene);
+  run_steps(simulation, 20);
+  simulation.save(path("good"));
+  run_steps(simulation, 5);
+  const std::string before = snapshot(simulation);
+  const auto expect_refused = [&](const char* word, const std::function<void(Snapshot&)>& damage) {
+    Snapshot damaged = read_snapshot(path("good"));
+    damage(damaged);
+    write_snapshot(path("damaged"), damaged);
+    const std::string message = error_of([&] { simulation.restore(path("damaged")); });
+    EXPECT_NE(message.find(path("damaged")), std::string::npos) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_TRUE(snapshot(simulation) == before) << "changed by: " << message;
+  };
+  const auto put = [](std::vector<char>& bytes, std::size_t place, double value) {
+    ASSERT_LT((place + 1) * sizeof value, bytes.size());
+    std::memcpy(bytes.data() + place * sizeof value, &value, sizeof value);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t instants = 15;         // after as many columns, the number of instants that the first opening remembers
+  constexpr std::size_t turn = 2 * 6 + 3 + 3;  // after what is felt, the world's head and the tank's place
+  expect_refused("openings", [](Snapshot& of) { of.openings.resize(of.openings.size() - sizeof(double)); });
+  expect_refused("openings", [](Snapshot& of) { of.openings.resize(of.openings.size() + sizeof(double)); });
+  expect_refused("openings", [](Snapshot& of) { of.openings.clear(); });
+  expect_refused("openings", [&](Snapshot& of) { put(of.openings, instants, 1e300); });
+  expect_refused("openings", [&](Snapshot& of) { put(of.openings, instants, -1); });
+  expect_refused("openings", [&](Snapshot& of) { put(of.openings, 0, nan); });
+  expect_refused("openings", [&](Snapshot& of) { put(of.openings, 0, 5); });  // spacings and more at once
+  expect_refused("turn", [&](Snapshot& of) { put(of.bodies, turn, 2); });
+  expect_refused("velocity", [&](Snapshot& of) { put(of.bodies, turn + 4, nan); });
+  expect_refused("acceleration", [&](Snapshot& of) { put(of.bodies, 0, nan); });
+  expect_refused("time step is 0 s", [](Snapshot& of) { of.time_step = 0; });
+  expect_refused("time step is 1e+300 s", [](Snapshot& of) { of.time_step = 1e300; });
+  expect_refused("time is nan", [&](Snapshot& of) { of.time = nan; });
+  expect_refused("instruments", [](Snapshot& of) {
+    of.clocks[0] = 0;
+    of.time += 1000;
+  });
+  expect_refused("instruments", [](Snapshot& of) { of.instruments = {1.0}; });
+  simulation.restore(path("good"));
+  EXPECT_EQ(simulation.state().step, 20u);
 }
 
 // A snapshot knows a law of time and place, which is in the case's text.

@@ -39,10 +39,12 @@ class Recorder {
 
   static constexpr std::size_t instrument_count = 10;
   std::array<std::uint64_t, instrument_count> clock_indices() const;
+  /// Whether each clock, so set, stands at its next sample at `time`, s, give or take a sample and `slack`, s.
+  bool can_stand_at(const std::array<std::uint64_t, instrument_count>& indices, double time, double slack) const;
   void set_clock_indices(const std::array<std::uint64_t, instrument_count>& indices);
   /// What the next samples depend on besides: of each inertial measurement unit its velocity at its last sample, m/s in the world's axes.
   const std::vector<double>& memory() const { return imu_velocities_; }
-  /// Throws Error if it is not one of this case.
+  /// Throws Error, and keeps its own, if it is not one of this case.
   void set_memory(const std::vector<double>& memory);
 
  private:

@@ -112,7 +112,7 @@ class RigidWorld {
   double potential_energy() const;
 
   std::vector<char> save() const;
-  /// Throws Error if the bytes are not those of this world.
+  /// Throws Error, and stays as it was, if the bytes are not those of this world, or what they hold is not finite.
   void restore(const std::vector<char>& bytes);
 
  private:
