@@ -48,9 +48,10 @@ struct Interrupted : std::exception {
 
 }  // namespace
 
-BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
+BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted, parallel::Team* team)
     : options_(options),
       interrupted_(interrupted),
+      team_(team),
       case_(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})),
       progress_(Progress::fitting(options.quiet), 0.0, case_.duration) {
   check_names(case_);
@@ -110,6 +111,7 @@ void BagRun::start() {
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;
   simulation_options.time_kernels = options_.profile;
+  simulation_options.team = team_;
   simulation_options.progress = [this](const std::string& what, double fraction) {
     if (interrupted_ != 0) throw Interrupted();
     progress_.starting(what, fraction);

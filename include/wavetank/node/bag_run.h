@@ -20,8 +20,8 @@ class BagRun {
   enum class Outcome { done, interrupted, violated };
 
   /// Reads the case and opens the bag, so that whatever is wrong with them shows before the long start. `interrupted` is watched
-  /// throughout.
-  BagRun(const RunOptions& options, const std::atomic<int>& interrupted);
+  /// throughout. `team`: as SimulationOptions has it.
+  BagRun(const RunOptions& options, const std::atomic<int>& interrupted, parallel::Team* team = nullptr);
 
   /// Starts and runs the simulation, ends the bag and reports on standard output. Throws Error for whatever stops it but a violation; where
   /// the disk does not take the bag, the files for ParaView or the snapshot any more, after all that could be was kept, and what() says
@@ -52,6 +52,7 @@ class BagRun {
 
   const RunOptions& options_;
   const std::atomic<int>& interrupted_;
+  parallel::Team* team_;
   Case case_;
   StampClock clock_;
   std::unique_ptr<RunRecorder> recorder_;
