@@ -1,4 +1,6 @@
 // The ranks of MPI. Nothing here waits within MPI, whose own waits would neither see that a rank has failed nor leave its cores to others.
+#define OMPI_SKIP_MPICXX 1  // of MPI the C interface alone, whichever it is
+#define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 #include <signal.h>
 #include <unistd.h>
@@ -6,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <list>
@@ -24,14 +27,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int code_of_trouble = 2;          // as other errors
+constexpr int code_of_trouble = 2;  // as other errors
 constexpr double patience = 300;            // s, with a rank that does not answer
 constexpr double patience_when_ending = 5;  // the same, once the run shall end: mpirun then kills soon
 constexpr double patience_with_living = 20;
 constexpr std::size_t piece = std::size_t{1} << 30;  // bytes: MPI counts in int
 
 /// Of a communicator's own messages.
-enum Tag { of_group, of_order, of_reply, of_end, of_trouble };
+enum Tag { of_group, of_order, of_reply, of_end, of_farewell, of_trouble };
 
 void check(int code, const char* call) {
   if (code == MPI_SUCCESS) return;
@@ -45,6 +48,16 @@ void check(int code, const char* call) {
 struct Told : Error {
   using Error::Error;
 };
+
+/// What others never answered may be under way still, for which some MPI waits here for ever.
+void finalize() {
+  std::thread([] {
+    std::this_thread::sleep_for(std::chrono::seconds(20));
+    std::fflush(nullptr);
+    std::_Exit(code_of_trouble);
+  }).detach();
+  MPI_Finalize();
+}
 
 /// How long somebody waits, and how gently.
 class Waiting {
@@ -133,7 +146,10 @@ class MpiRanks final : public Ranks, private Group {
   void fail(const std::string& why);
   void check_whole() const;
   std::string gone(int rank) const;
+  /// Of rank 0, when it has told that the run is over.
+  int take_leave();
   int wait_for_the_end();
+  void wait_until_gone(double seconds) const;
 
   int size_ = 1, rank_ = 0, rank_on_machine_ = 0;
   MPI_Comm comm_ = MPI_COMM_NULL;
@@ -197,7 +213,7 @@ void MpiRanks::fail(const std::string& why) {
 }
 
 void MpiRanks::post(int to, Tag tag, Bytes bytes) {
-  if (tag != of_trouble && tag != of_end) check_whole();
+  if (tag == of_group || tag == of_order || tag == of_reply) check_whole();
   sent_.push_back({std::move(bytes), {}});
   Sent& sent = sent_.back();
   std::size_t first = 0;
@@ -338,17 +354,23 @@ int MpiRanks::serve(const Work& work) {
     fail(error.what());
     return wait_for_the_end();
   }
-  const int code = read(0, of_end).at(0);
-  post(0, of_reply, {});
-  MPI_Finalize();
-  return code;
+  return take_leave();
 }
 
-/// After a failure, of which rank 0 is to tell, and to close its files, before anybody goes: mpirun would then end all.
+/// mpirun ends all as soon as one exits with another code than 0, or without MPI_Finalize, and takes its time for it: that is left to
+/// rank 0, which is the last to exit.
+int MpiRanks::take_leave() {
+  read(0, of_end);
+  post(0, of_farewell, {});
+  finalize();
+  return 0;
+}
+
+/// After a failure, of which rank 0 is to tell, and to close its files.
 int MpiRanks::wait_for_the_end() {
   Waiting waiting;
   while (find_dead(0) < 0 && waiting.seconds() < patience) {
-    if (is_there(0, of_end)) return read(0, of_end).at(0);
+    if (is_there(0, of_end)) return take_leave();
     forget_what_is_sent();
     waiting.rest();
   }
@@ -357,25 +379,45 @@ int MpiRanks::wait_for_the_end() {
 
 int MpiRanks::end(int code) {
   const bool was_whole = failed_.empty();
-  try {
-    for (int other = 1; other < size_; ++other)
-      if (find_dead(other) < 0) post(other, of_end, {static_cast<char>(code)});
-    if (was_whole) {
-      for (int other = 1; other < size_; ++other) take(other, of_reply, Patience::limited);
-      MPI_Finalize();
-      return code;
-    }
-    // what was sent is on its way when it is forgotten, and there is nobody to wait for; no Finalize, in which one would
-    for (Waiting waiting; !sent_.empty() && waiting.seconds() < 1; waiting.rest()) forget_what_is_sent();
-    return code;
-  } catch (const std::exception& error) {
-    if (was_whole) log(LogLevel::error, error.what());
-    const bool was_well = code == 0 || code > 128;
-    for (int other = 1; other < size_; ++other)
-      if (find_dead(other) < 0) post(other, of_end, {static_cast<char>(was_well ? code_of_trouble : code)});
-    for (Waiting waiting; !sent_.empty() && waiting.seconds() < 1; waiting.rest()) forget_what_is_sent();
-    return was_well ? code_of_trouble : code;
+  bool all_answer = true;
+  const auto tell = [this](const std::string& why) {
+    if (failed_.empty()) log(LogLevel::error, why);
+    failed_ = why;
+  };
+  std::vector<int> awaited;
+  for (int other = 1; other < size_; ++other) {
+    awaited.push_back(other);
+    if (find_dead(other) < 0) post(other, of_end, {});
   }
+  const auto has_left = [&](int other) {
+    if (is_there(other, of_farewell)) return true;
+    if (find_dead(other) < 0) return false;
+    all_answer = false;
+    tell(gone(other));
+    return true;
+  };
+  for (Waiting waiting; !awaited.empty() && waiting.seconds() < patience_with_living; waiting.rest()) {
+    try {
+      look_for_trouble();
+    } catch (const Told& trouble) {
+      if (was_whole) log(LogLevel::error, trouble.what());
+    }
+    awaited.erase(std::remove_if(awaited.begin(), awaited.end(), has_left), awaited.end());
+    forget_what_is_sent();
+  }
+  if (all_answer && awaited.empty()) {
+    finalize();
+    wait_until_gone(2);
+  }
+  const bool has_told_in_code = code != 0 && code < 128;
+  return failed_.empty() || has_told_in_code ? code : code_of_trouble;
+}
+
+/// Until mpirun has taken note of the others' ends.
+void MpiRanks::wait_until_gone(double seconds) const {
+  Waiting waiting;
+  for (int other = 0; other < size_; ++other)
+    while (other != rank_ && is_visible_[other] && find_dead(other) < 0 && waiting.seconds() < seconds) waiting.rest();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ import program_runner
 from program_runner import PROGRAM, ProgramTest, interrupt, read_line_with
 
 MPIRUN = shutil.which("mpirun")
-RANKS = ["--oversubscribe", "--bind-to", "none", "--mca", "odls_base_sigkill_timeout", "30"]
+RANKS = ["--oversubscribe", "--bind-to", "none", "--mca", "odls_base_sigkill_timeout", "4"]
 # Root may run it, as in containers; every process has one of the cores; and no network is looked for.
 SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",

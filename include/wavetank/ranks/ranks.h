@@ -21,10 +21,11 @@ class Ranks : public Team {
  public:
   virtual int rank() const = 0;
   virtual int rank_on_machine() const = 0;  ///< among those on the same machine, from 0
-  /// By all ranks but 0: does what rank 0 asks for, until that ends the run. Returns the code to exit with.
+  /// By all ranks but 0: does what rank 0 asks for, until that ends the run. Returns the code to exit with: 0 where rank 0 has told how it
+  /// ended, by which mpirun goes then.
   virtual int serve(const Work& work) = 0;
-  /// By rank 0, last of all: the others then exit with this code too. Returns the code to exit with, which is another where a rank is found
-  /// dead of which nobody has told.
+  /// By rank 0, last of all: the others then exit. Returns the code to exit with: `code`, or that of an error where a rank is found dead,
+  /// or in trouble, of which nobody has told.
   virtual int end(int code) = 0;
   /// s, that this rank has waited for others.
   virtual double waited() const = 0;
