@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int code_of_trouble = 2;  // as other errors
+constexpr int code_of_trouble = 2;          // as other errors
 constexpr double patience = 300;            // s, with a rank that does not answer
 constexpr double patience_when_ending = 5;  // the same, once the run shall end: mpirun then kills soon
 constexpr double patience_with_living = 20;
@@ -68,7 +68,9 @@ class Waiting {
   bool is_time_to_look_around() const { return is_long() || looks_ % 64 == 63; }
   void rest() {
     ++looks_;
-    if (looks_ > 4000)
+    if (looks_ > 6000)  // a second and more: a tank that is paused, say
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    else if (looks_ > 4000)
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     else if (is_long())
       std::this_thread::sleep_for(std::chrono::microseconds(50));
@@ -409,8 +411,8 @@ int MpiRanks::end(int code) {
     finalize();
     wait_until_gone(2);
   }
-  const bool has_told_in_code = code != 0 && code < 128;
-  return failed_.empty() || has_told_in_code ? code : code_of_trouble;
+  const bool says_nothing = code == 0 || code > 128;  // the latter as of a signal
+  return was_whole && !failed_.empty() && says_nothing ? code_of_trouble : code;
 }
 
 /// Until mpirun has taken note of the others' ends.

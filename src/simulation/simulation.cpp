@@ -191,7 +191,8 @@ std::vector<compute::Device> Simulation::Parts::chosen_devices() const {
 
 std::unique_ptr<Solver> Simulation::Parts::solver_on(const std::vector<compute::Device>& those) const {
   const std::vector<Vector3d> centres = reference_points(world);
-  if (options.team != nullptr) return make_parted_solver(*options.team, those[0], write_case(scene), scene, layout, discretisation, centres);
+  if (options.team != nullptr)
+    return make_parted_solver(*options.team, those[0], write_case(scene), scene, layout, discretisation, centres);
   if (those.size() == 1) return make_solver(those[0], scene, layout, discretisation, centres);
   return make_parted_solver(those, scene, layout, discretisation, centres);
 }
@@ -425,7 +426,8 @@ const Layout& Simulation::layout() const { return parts_->layout; }
 std::string Simulation::device_description() const {
   const std::vector<compute::Device>& devices = parts_->devices;
   if (const parallel::Team* const team = parts_->options.team)
-    return std::to_string(team->size()) + (team->size() == 1 ? " process" : " processes") + ", the first on " + devices[0].info().describe();
+    return std::to_string(team->size()) + (team->size() == 1 ? " process" : " processes") + ", the first on " +
+           devices[0].info().describe();
   if (devices.size() == 1) return devices[0].info().describe();
   std::string text = std::to_string(devices.size()) + " parts on " + devices[0].info().describe();
   for (std::size_t k = 1; k < devices.size(); ++k) {

@@ -42,9 +42,7 @@ int cores_here() {
 /// Whatever lies in a third corner of two dimensions is left out.
 std::uint64_t digest_of_walls(const std::vector<Facet>& facets, int dimensions) {
   std::uint64_t digest = digest_of("walls");
-  const auto add = [&digest](const void* bytes, std::size_t size) {
-    digest = digest_of({static_cast<const char*>(bytes), size}, digest);
-  };
+  const auto add = [&digest](const void* bytes, std::size_t size) { digest = digest_of({static_cast<const char*>(bytes), size}, digest); };
   for (const Facet& facet : facets) {
     for (int k = 0; k < dimensions; ++k) add(facet.corners[k].data(), sizeof(Eigen::Vector3d));
     add(facet.normal.data(), sizeof(Eigen::Vector3d));
@@ -124,8 +122,7 @@ class RemotePart {
     FirstOrder first = first_order(from);
     const PreparedPart prepared = prepare_(first.scene);
     first.parting.group = &member_;
-    server_ =
-        make_part_server(prepared.device, first.parting, prepared.scene, prepared.layout, prepared.discretisation, first.centres);
+    server_ = make_part_server(prepared.device, first.parting, prepared.scene, prepared.layout, prepared.discretisation, first.centres);
     return packed(server_->facts());
   }
 
@@ -164,9 +161,8 @@ void check_precision(const Case& scene, const compute::Device& device) {
                 " has no double precision: choose single or another device.");
 }
 
-std::unique_ptr<PartServer> make_part_server(const compute::Device& device, const Parting& parting, const Case& scene,
-                                             const Layout& layout, const Discretisation& discretisation,
-                                             const std::vector<Eigen::Vector3d>& centres) {
+std::unique_ptr<PartServer> make_part_server(const compute::Device& device, const Parting& parting, const Case& scene, const Layout& layout,
+                                             const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
   Layout dry = layout;
   dry.particles.clear();
   dry.volumes.clear();

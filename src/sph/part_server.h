@@ -16,14 +16,14 @@ namespace wavetank {
 
 /// What the parts are asked to do, as the first byte of an order, and what comes after it.
 enum class PartOrder : char {
-  begin,     ///< a part in another process: FirstOrder; replies with PartFacts
-  advance,   ///< a step
-  shorten,   ///< s, of the next step
-  limit,     ///< s, of every step
-  film,      ///< lumps
-  save,      ///< replies with the state of the part's own particles
-  cut,       ///< cuts, and a state of all the water, of which the part takes what is its
-  memory,    ///< replies with the bytes on its device
+  begin,    ///< a part in another process: FirstOrder; replies with PartFacts
+  advance,  ///< a step
+  shorten,  ///< s, of the next step
+  limit,    ///< s, of every step
+  film,     ///< lumps
+  save,     ///< replies with the state of the part's own particles
+  cut,      ///< cuts, and a state of all the water, of which the part takes what is its
+  memory,   ///< replies with the bytes on its device
 };
 
 /// From which a process makes its part: the rest follows from the case.

@@ -79,8 +79,8 @@ class PartedSolver final : public Solver {
   }
 
   /// One in each process.
-  PartedSolver(parallel::Team& team, const compute::Device& device, const std::string& scene_text, const Case& scene,
-               const Layout& layout, const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
+  PartedSolver(parallel::Team& team, const compute::Device& device, const std::string& scene_text, const Case& scene, const Layout& layout,
+               const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : team_(team),
         whole_(rows_for(scene), device, scene, layout, discretisation, centres),
         parting_(parting_for(discretisation, layout.particles.size())) {
@@ -93,9 +93,10 @@ class PartedSolver final : public Solver {
     for (const Bytes& reply : replies) facts.push_back(part_facts(reply));
     for (int rank = 1; rank < team_.size(); ++rank)
       if (facts[rank].digest != facts[0].digest)
-        throw Error(team_.name_of(rank) +
-                    " has made another tank of this case than the first: its program must be the same, and so must the meshes that the case "
-                    "names.");
+        throw Error(
+            team_.name_of(rank) +
+            " has made another tank of this case than the first: its program must be the same, and so must the meshes that the case "
+            "names.");
     tell_of_parts(team_, facts);
   }
 
