@@ -135,6 +135,8 @@ if(TARGET wavetank_node)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
   endforeach()
+  add_test(NAME node_ranks_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
+    WAVETANK_MPI=$<$<BOOL:${MPI_C_FOUND}>:ON> ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/ranks_test.py -v)
   add_test(NAME node_install_test COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_BUILD=${CMAKE_BINARY_DIR}
     ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/install_test.py -v)
   add_test(NAME validation_compare_motion_test COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/validation/compare_motion_test.py -v)

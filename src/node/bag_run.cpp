@@ -48,9 +48,10 @@ struct Interrupted : std::exception {
 
 }  // namespace
 
-BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted)
+BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted, parallel::Ranks* ranks)
     : options_(options),
       interrupted_(interrupted),
+      ranks_(ranks),
       case_(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})),
       progress_(Progress::fitting(options.quiet), 0.0, case_.duration) {
   check_names(case_);
@@ -82,6 +83,9 @@ BagRun::Outcome BagRun::run() {
     cut_short(full);
   } catch (const VtkError& full) {
     cut_short(full);
+  } catch (const Error&) {
+    if (ranks_ == nullptr || interrupted_ == 0 || simulation_) throw;
+    return left_start();  // all ranks were asked to end, and another was first to leave what it did
   }
   progress_.clear();
   finish();
@@ -110,6 +114,7 @@ void BagRun::start() {
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;
   simulation_options.time_kernels = options_.profile;
+  simulation_options.team = ranks_;
   simulation_options.progress = [this](const std::string& what, double fraction) {
     if (interrupted_ != 0) throw Interrupted();
     progress_.starting(what, fraction);
@@ -131,6 +136,7 @@ void BagRun::start() {
 
 void BagRun::step_to_the_end() {
   began_ = Clock::now();
+  if (ranks_ != nullptr) waited_at_start_ = ranks_->waited();
   write_samples();
   while (last_.time < case_.duration - least_time_left && interrupted_ == 0) {
     try {
@@ -303,6 +309,7 @@ void BagRun::report() const {
   for (const KernelTime& kernel : kernels)
     std::printf("%-32s %10llu %12.4f %6.1f %%\n", kernel.kernel.c_str(), static_cast<unsigned long long>(kernel.launches), kernel.seconds,
                 all > 0 ? 100.0 * kernel.seconds / all : 0.0);
+  if (ranks_ != nullptr) std::printf("%-32s %10s %12.4f\n", "(this rank waited for others)", "", ranks_->waited() - waited_at_start_);
 }
 
 void BagRun::say(const std::string& text) {

@@ -24,7 +24,7 @@ constexpr int exit_failed = 3;
 
 }  // namespace
 
-TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup)
+TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup, parallel::Team* team)
     : handle_(handle),
       private_(private_handle),
       setup_(std::move(setup)),
@@ -46,6 +46,7 @@ TankNode::TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private
 
   SimulationOptions options;
   options.resolve = resolve_resource;
+  options.team = team;
   LoopSettings settings;
   settings.restore_from = parameters.restore;
   settings.failure_snapshot = snapshot_path("failure");

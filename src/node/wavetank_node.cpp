@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
@@ -11,6 +12,7 @@
 #include "wavetank/common/version.h"
 #include "wavetank/common/visible_text.h"
 #include "wavetank/node/parameters.h"
+#include "wavetank/node/rank_programs.h"
 #include "wavetank/node/tank_node.h"
 
 namespace {
@@ -37,14 +39,8 @@ void log_to_ros(wavetank::LogLevel level, const std::string& line) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  wavetank::let_writing_fail();
-  const wavetank::EndingSignals signals([](int) {
-    is_asked_to_end = true;
-    ros::requestShutdown();
-  });
+/// `ranks`: null of a process that is alone.
+int live(int argc, char** argv, wavetank::parallel::Ranks* ranks) {
   ros::init(argc, argv, "wavetank", ros::init_options::NoSigintHandler);
   for (int i = 1; i < argc; ++i) {
     const bool version = std::strcmp(argv[i], "--version") == 0;
@@ -57,7 +53,7 @@ int main(int argc, char** argv) {
   if (is_asked_to_end) return 0;
   ros::NodeHandle handle, private_handle("~");  // which outlive an error, or its message would not be printed
   try {
-    wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle));
+    wavetank::TankNode node(handle, private_handle, wavetank::read_setup(private_handle), ranks);
     ros::AsyncSpinner spinner(3);  // one waits for the end of ~advance
     spinner.start();
     // roscpp says that it is not ok only once no call is in progress, and that of ~advance goes on.
@@ -72,4 +68,24 @@ int main(int argc, char** argv) {
     ROS_FATAL("%s", wavetank::visible_lines(error.what()).c_str());
     return 2;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  wavetank::let_writing_fail();
+  const wavetank::EndingSignals signals([](int) {
+    is_asked_to_end = true;
+    ros::requestShutdown();
+  });
+  if (!wavetank::parallel::is_under_launcher()) return live(argc, argv, nullptr);
+  std::unique_ptr<wavetank::parallel::Ranks> ranks;
+  try {
+    ranks = wavetank::parallel::join_ranks();
+  } catch (const std::exception& error) {
+    if (wavetank::parallel::rank_by_launcher() == 0) std::fprintf(stderr, "wavetank_node: %s\n", error.what());
+    return 2;
+  }
+  if (ranks->rank() > 0) return wavetank::serve_first_rank(*ranks);
+  return ranks->end(live(argc, argv, ranks.get()));
 }

@@ -1,6 +1,8 @@
 // Simulates a case without a ROS master and writes a bag: everything but the process's own affairs is in BagRun.
 #include <atomic>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "wavetank/compute/device.h"
 #include "wavetank/node/bag_run.h"
 #include "wavetank/node/check_report.h"
+#include "wavetank/node/rank_programs.h"
 #include "wavetank/node/resources.h"
 #include "wavetank/node/run_options.h"
 #include "wavetank/sph/schedule_page.h"
@@ -54,9 +57,12 @@ void print_schedule(const RunOptions& options) {
   std::fputs(schedule_page(read_case_file(options.case_file, options.overrides, {resolve_resource, {}})).c_str(), stdout);
 }
 
-int run(const RunOptions& options) {
-  const EndingSignals signals([](int number) { caught_signal = number; });
-  BagRun bag_run(options, caught_signal);
+void catch_signal(int number) { caught_signal = number; }
+
+int run(const RunOptions& options, parallel::Ranks* ranks) {
+  std::optional<EndingSignals> signals;
+  if (ranks == nullptr) signals.emplace(catch_signal);
+  BagRun bag_run(options, caught_signal, ranks);
   switch (bag_run.run()) {
     case BagRun::Outcome::done:
       return 0;
@@ -68,12 +74,9 @@ int run(const RunOptions& options) {
   return exit_error;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  let_writing_fail();
+/// `ranks`: null of a process that is alone.
+int program(int argc, char** argv, parallel::Ranks* ranks) {
   try {
-    set_log_sink(log_to_console);
     const RunOptions options = read_command_line(argc, argv);
     is_quiet = options.quiet;
     switch (options.action) {
@@ -90,14 +93,35 @@ int main(int argc, char** argv) {
         finish_printing();
         return 0;
       case RunOptions::Action::run:
-        return run(options);
+        return run(options, ranks);
       case RunOptions::Action::nothing:
         finish_printing();
         return 0;
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "wavetank_run: %s\n", visible_lines(error.what()).c_str());
-    return exit_error;
   }
   return exit_error;
+}
+
+/// One of the processes that mpirun has started.
+int rank_program(int argc, char** argv) {
+  const EndingSignals signals(catch_signal);  // before MPI has threads
+  std::unique_ptr<parallel::Ranks> ranks;
+  try {
+    ranks = parallel::join_ranks();
+  } catch (const std::exception& error) {
+    if (parallel::rank_by_launcher() == 0) std::fprintf(stderr, "wavetank_run: %s\n", error.what());
+    return exit_error;
+  }
+  if (ranks->rank() > 0) return serve_first_rank(*ranks);
+  return ranks->end(program(argc, argv, ranks.get()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  let_writing_fail();
+  set_log_sink(log_to_console);
+  return parallel::is_under_launcher() ? rank_program(argc, argv) : program(argc, argv, nullptr);
 }

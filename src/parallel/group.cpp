@@ -5,6 +5,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "wavetank/common/error.h"
@@ -123,7 +124,21 @@ ThreadGroup::~ThreadGroup() = default;
 
 int ThreadGroup::size() const { return shared_->size; }
 
+std::vector<int> ThreadGroup::here() const {
+  std::vector<int> all(members_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 Group& ThreadGroup::member(int rank) { return *members_.at(rank); }
+
+std::string ThreadGroup::name_of(int rank) const { return "part " + std::to_string(rank) + " of " + std::to_string(size()); }
+
+std::vector<Bytes> ThreadGroup::ask(const Bytes& order, const Work& work) {
+  std::vector<Bytes> replies(members_.size());
+  run([&](int rank) { replies[rank] = work(rank, order); });
+  return replies;
+}
 
 void ThreadGroup::run(const std::function<void(int)>& work) {
   const auto guarded = [&](int rank) {

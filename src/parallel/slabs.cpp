@@ -39,7 +39,7 @@ std::vector<int> cut_into_slabs(const std::vector<std::int64_t>& weights, int sl
   if (slabs < 1 || latest_begin(weights, slabs, least) < 0)
     throw Error("the water is to be cut into " + std::to_string(slabs) + " parts, but it is too short for that: of its " +
                 std::to_string(weights.size()) + " blocks each part needs " + std::to_string(least) + (least == 1 ? "" : " or more") +
-                ", with water: choose fewer devices.");
+                ", with water: choose fewer devices or ranks.");
   const std::int64_t all = weight_of(weights, 0, static_cast<int>(weights.size()));
   std::vector<int> cuts{0};
   std::int64_t before = 0;

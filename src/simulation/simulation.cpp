@@ -13,7 +13,9 @@
 #include "wavetank/common/log.h"
 #include "wavetank/common/version.h"
 #include "wavetank/common/visible_text.h"
+#include "wavetank/parallel/group.h"
 #include "wavetank/rigid/prescribed_motion.h"
+#include "wavetank/scene/case_reader.h"
 #include "wavetank/sph/parted_solver.h"
 
 namespace wavetank {
@@ -183,11 +185,14 @@ double Simulation::Parts::fastest_inflow(const Case& checked, double fastest_wal
 std::vector<compute::Device> Simulation::Parts::chosen_devices() const {
   std::vector<compute::Device> chosen;
   for (const compute::DeviceInfo& info : compute::choose_devices(scene.device)) chosen.emplace_back(info, options.time_kernels);
+  if (options.team != nullptr) chosen.resize(1, chosen[0]);  // the others are for the other processes of this machine
   return chosen;
 }
 
 std::unique_ptr<Solver> Simulation::Parts::solver_on(const std::vector<compute::Device>& those) const {
   const std::vector<Vector3d> centres = reference_points(world);
+  if (options.team != nullptr)
+    return make_parted_solver(*options.team, those[0], write_case(scene), scene, layout, discretisation, centres);
   if (those.size() == 1) return make_solver(those[0], scene, layout, discretisation, centres);
   return make_parted_solver(those, scene, layout, discretisation, centres);
 }
@@ -421,6 +426,9 @@ const Layout& Simulation::layout() const { return parts_->layout; }
 
 std::string Simulation::device_description() const {
   const std::vector<compute::Device>& devices = parts_->devices;
+  if (const parallel::Team* const team = parts_->options.team)
+    return std::to_string(team->size()) + (team->size() == 1 ? " process" : " processes") + ", the first on " +
+           devices[0].info().describe();
   if (devices.size() == 1) return devices[0].info().describe();
   std::string text = std::to_string(devices.size()) + " parts on " + devices[0].info().describe();
   for (std::size_t k = 1; k < devices.size(); ++k) {
@@ -432,7 +440,7 @@ std::string Simulation::device_description() const {
 
 std::string Simulation::Parts::kind_of_device() const {
   const compute::DeviceInfo& first = devices[0].info();
-  if (devices.size() == 1) return first.describe();
+  if (devices.size() == 1 && options.team == nullptr) return first.describe();
   return "parts on " + first.name + " (" + first.platform_name + ", driver " + first.driver + ")";
 }
 

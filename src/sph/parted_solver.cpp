@@ -4,12 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "part_server.h"
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
+#include "wavetank/common/log.h"
+#include "wavetank/parallel/packed.h"
 #include "wavetank/parallel/slabs.h"
 
 namespace wavetank {
 namespace {
+
+using parallel::Bytes;
+using parallel::Packed;
+using parallel::Unpacked;
 
 /// What parts cannot do yet, as the key of the case that asks for it; "" if there is nothing.
 std::string refused(const Case& scene, const Layout& layout) {
@@ -41,28 +48,56 @@ int axis_of_parts(const Discretisation& d) {
 /// Kernel supports of a block: fewer in small tanks, so that they have some of them; more where that costs fewer tiles that are not full.
 int supports_of_block(const Discretisation& d, int axis) { return std::clamp(d.cells[axis] / 16, 2, 8); }
 
+/// Which parts have other last bits, and which have fewer cores than their devices have threads.
+void tell_of_parts(const parallel::Team& team, const std::vector<PartFacts>& parts) {
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    if (parts[k].kind != parts[0].kind)
+      log(LogLevel::warning, team.name_of(static_cast<int>(k)) + " is on " + parts[k].kind + ", the first on " + parts[0].kind +
+                                 ": the last bits of the water depend on where it is cut.");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].cores >= parts[k].units || parts[k].cores == 0) continue;
+    log(LogLevel::warning, team.name_of(static_cast<int>(k)) + " may use " + std::to_string(parts[k].cores) +
+                               (parts[k].cores == 1 ? " core" : " cores") + ", but its device " + parts[k].device + " starts " +
+                               std::to_string(parts[k].units) + " threads: mpirun --bind-to none gives it all cores.");
+    break;  // once says it
+  }
+}
+
 template <class Real>
 class PartedSolver final : public Solver {
  public:
+  /// Parts in this process, one a device.
   PartedSolver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout, const Discretisation& discretisation,
                const std::vector<Eigen::Vector3d>& centres, const PartedSolverOptions& options)
       : options_(options),
-        group_(static_cast<int>(devices.size()), options.takes_turns),
+        threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns)),
+        team_(*threads_),
         whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
         parting_(parting_for(discretisation, layout.particles.size())) {
-    Layout dry = layout;
-    dry.particles.clear();
-    dry.volumes.clear();
-    dry.levels.clear();
-    for (int rank = 0; rank < group_.size(); ++rank) {
-      SolverRows rows = rows_for(scene);
-      rows.fields.insert(rows.fields.end(), part_fields().begin(), part_fields().end());
-      rows.parameters.insert(rows.parameters.end(), part_parameters().begin(), part_parameters().end());
-      rows.parting = parting_;
-      rows.parting->group = &group_.member(rank);
-      parts_.push_back(std::make_unique<SphSolver<Real>>(rows, devices[rank], scene, dry, discretisation, centres));
-    }
+    for (int rank = 0; rank < team_.size(); ++rank) add_part(rank, devices[rank], scene, layout, discretisation, centres);
     check_room();
+  }
+
+  /// One in each process.
+  PartedSolver(parallel::Team& team, const compute::Device& device, const std::string& scene_text, const Case& scene, const Layout& layout,
+               const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
+      : team_(team),
+        whole_(rows_for(scene), device, scene, layout, discretisation, centres),
+        parting_(parting_for(discretisation, layout.particles.size())) {
+    check_room();
+    const std::vector<Bytes> replies = team_.ask(packed(FirstOrder{parting_, centres, scene_text}), [&](int rank, const Bytes&) {
+      add_part(rank, device, scene, layout, discretisation, centres);
+      return packed(parts_.back()->facts());
+    });
+    std::vector<PartFacts> facts;
+    for (const Bytes& reply : replies) facts.push_back(part_facts(reply));
+    for (int rank = 1; rank < team_.size(); ++rank)
+      if (facts[rank].digest != facts[0].digest)
+        throw Error(
+            team_.name_of(rank) +
+            " has made another tank of this case than the first: its program must be the same, and so must the meshes that the case "
+            "names.");
+    tell_of_parts(team_, facts);
   }
 
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override { return changed().pack(iterations, progress); }
@@ -72,30 +107,31 @@ class PartedSolver final : public Solver {
   StepReport advance(WallMover* mover) override {
     if (mover != nullptr) refuse("something moves");
     if (stale_parts_ || is_time_to_cut()) cut();
-    std::vector<StepReport> reports(parts_.size());
     stale_whole_ = true;
-    group_.run([&](int rank) { reports[rank] = parts_[rank]->advance(nullptr); });
+    ask(PartOrder::advance);
     ++steps_since_cut_;
     note_load();
-    for (const StepReport& report : reports)
-      if (!report.valid()) return report;
-    return reports[0];
+    return parts_[0]->report();
   }
 
   void set_wall_motions(const WallMotions&) override { refuse("something moves"); }
   void set_film(const std::vector<FilmLump>& lumps) override {
     whole_.set_film(lumps);
-    for (const auto& part : parts_) part->set_film(lumps);
+    std::vector<double> numbers;
+    for (const FilmLump& lump : lumps)
+      numbers.insert(numbers.end(), {lump.place.x(), lump.place.y(), lump.place.z(), lump.volume, lump.pressure});
+    if (numbers == film_) return;
+    film_ = numbers;
+    ask(Packed().value(PartOrder::film).values(numbers));
   }
   void limit_time_step(double limit) override {
     whole_.limit_time_step(limit);
-    for (const auto& part : parts_) part->limit_time_step(limit);
+    ask(Packed().value(PartOrder::limit).value(limit));
   }
   double shorten_step(double longest) override {
     if (stale_parts_) return whole_.shorten_step(longest);
-    double step = 0;
-    for (const auto& part : parts_) step = part->shorten_step(longest);
-    return step;
+    ask(Packed().value(PartOrder::shorten).value(longest));
+    return parts_[0]->time_step();
   }
   std::size_t particle_count() const override { return whole_.particle_count(); }
   void let_in(const NewParticles& particles) override {
@@ -125,9 +161,9 @@ class PartedSolver final : public Solver {
     stale_parts_ = true;
   }
   std::size_t device_memory() const override {
-    std::size_t bytes = whole_.device_memory();  // with that of parts on the same device
-    for (const auto& part : parts_)
-      if (part != parts_.front()) bytes += part->device_memory();
+    const std::vector<Bytes> replies = ask(PartOrder::memory);
+    std::size_t bytes = whole_.device_memory();  // with that of the first part, on the same device
+    for (std::size_t rank = 1; rank < replies.size(); ++rank) bytes += Unpacked(replies[rank]).value<std::size_t>();
     return bytes;
   }
 
@@ -135,6 +171,19 @@ class PartedSolver final : public Solver {
   [[noreturn]] static void refuse(const std::string& why) {
     throw Error(why + ", which several devices cannot do together yet: choose one device.");
   }
+
+  void add_part(int rank, const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
+                const std::vector<Eigen::Vector3d>& centres) {
+    Parting parting = parting_;
+    parting.group = &team_.member(rank);
+    parts_.push_back(make_part_server(device, parting, scene, layout, discretisation, centres));
+  }
+
+  std::vector<Bytes> ask(const Bytes& order) const {
+    return team_.ask(order, [this](int rank, const Bytes& given) { return parts_.at(rank)->obey(given); });
+  }
+  std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
+  std::vector<Bytes> ask(PartOrder order) const { return ask(Packed().value(order)); }
 
   Parting parting_for(const Discretisation& d, std::size_t particles) const {
     Parting parting;
@@ -161,7 +210,7 @@ class PartedSolver final : public Solver {
   void check_room() { cuts_for(whole_.particles_in_blocks(parting_)); }
 
   std::vector<int> cuts_for(const std::vector<std::int64_t>& weights) const {
-    std::vector<int> cuts = parallel::cut_into_slabs(weights, group_.size(), least_blocks());
+    std::vector<int> cuts = parallel::cut_into_slabs(weights, team_.size(), least_blocks());
     if (options_.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options_.uneven, least_blocks(), cuts[2] - least_blocks());
     return cuts;
   }
@@ -169,9 +218,7 @@ class PartedSolver final : public Solver {
   /// All the water, as the parts have it by now.
   SphSolver<Real>& whole() const {
     if (!stale_whole_) return whole_;
-    std::vector<std::vector<char>> saved(parts_.size());
-    group_.run([&](int rank) { saved[rank] = parts_[rank]->save(); });
-    whole_.restore(whole_.joined(saved));
+    whole_.restore(whole_.joined(ask(PartOrder::save)));
     stale_whole_ = false;
     return whole_;
   }
@@ -185,11 +232,7 @@ class PartedSolver final : public Solver {
   void cut() {
     SphSolver<Real>& all = whole();
     const std::vector<int> cuts = cuts_for(all.particles_in_blocks(parting_));
-    const std::vector<char> bytes = all.save();
-    group_.run([&](int rank) {
-      parts_[rank]->set_cuts(cuts);
-      parts_[rank]->restore(bytes);
-    });
+    ask(Packed().value(PartOrder::cut).values(cuts).values(all.save()));
     stale_parts_ = false;
     steps_since_cut_ = 0;
     lost_steps_ = 0;
@@ -197,12 +240,7 @@ class PartedSolver final : public Solver {
 
   /// By how much the step was longer than one of even parts, in steps.
   void note_load() {
-    std::int64_t most = 0, all = 0;
-    for (const auto& part : parts_) {
-      most = std::max(most, part->own_count());
-      all += part->own_count();
-    }
-    const double load = all == 0 ? 1.0 : static_cast<double>(most) * static_cast<double>(parts_.size()) / static_cast<double>(all);
+    const double load = parts_[0]->imbalance();
     if (steps_since_cut_ == 1) load_when_cut_ = load;
     lost_steps_ += std::max(load - load_when_cut_, 0.0);
   }
@@ -212,10 +250,12 @@ class PartedSolver final : public Solver {
   }
 
   PartedSolverOptions options_;
-  mutable parallel::ThreadGroup group_;
+  std::unique_ptr<parallel::ThreadGroup> threads_;  ///< of parts in this process
+  parallel::Team& team_;
   mutable SphSolver<Real> whole_;
   Parting parting_;
-  std::vector<std::unique_ptr<SphSolver<Real>>> parts_;
+  std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
+  std::vector<double> film_;                        ///< that the parts know of
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;
   int steps_since_cut_ = 0;
@@ -231,13 +271,23 @@ std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& d
   if (!why.empty())
     throw Error("device names " + std::to_string(devices.size()) + " devices, but " + why +
                 ", which several devices cannot do together yet: choose one device.");
+  for (const compute::Device& device : devices) check_precision(scene, device);
   if (scene.numerics.precision == Precision::single)
     return std::make_unique<PartedSolver<float>>(devices, scene, layout, discretisation, centres, options);
-  for (const compute::Device& device : devices)
-    if (!device.info().has_double)
-      throw Error("numerics/precision is double, but the device " + device.info().describe() +
-                  " has no double precision: choose single or another device.");
   return std::make_unique<PartedSolver<double>>(devices, scene, layout, discretisation, centres, options);
+}
+
+std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
+                                           const Case& scene, const Layout& layout, const Discretisation& discretisation,
+                                           const std::vector<Eigen::Vector3d>& centres) {
+  const std::string why = refused(scene, layout);
+  if (!why.empty())
+    throw Error("mpirun has started " + std::to_string(team.size()) + (team.size() == 1 ? " rank" : " ranks") + ", but " + why +
+                ", which several devices cannot do together yet: run it without mpirun.");
+  check_precision(scene, device);
+  if (scene.numerics.precision == Precision::single)
+    return std::make_unique<PartedSolver<float>>(team, device, scene_text, scene, layout, discretisation, centres);
+  return std::make_unique<PartedSolver<double>>(team, device, scene_text, scene, layout, discretisation, centres);
 }
 
 }  // namespace wavetank

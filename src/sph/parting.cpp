@@ -35,4 +35,9 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
 
 bool has_place(const ParameterBlock& values, int place) { return place >= values.at("halo_begin") && place < values.at("halo_end"); }
 
+std::uint64_t digest_of(std::string_view bytes, std::uint64_t before) {
+  for (const char byte : bytes) before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3;  // Fowler, Noll and Vo's
+  return before;
+}
+
 }  // namespace wavetank

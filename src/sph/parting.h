@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "tables/fields.h"
@@ -12,7 +14,7 @@ namespace wavetank {
 /// How the water of a case is cut into parts: the same for all of them, and for any number of them. Places along the axis are counted in
 /// the slots of the particles' grid along x, or in its rows; the first is 1, since the grid has an empty border.
 struct Parting {
-  parallel::Group* group = nullptr;  ///< the part and those beside it
+  parallel::Group* group = nullptr;  ///< the part and those beside it; the rest is the same for all
   int axis = 0;                      ///< across which the water is cut
   int halo = 0;                      ///< places beside its own of which a part has the particles of others
   int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks
@@ -33,5 +35,8 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
 
 /// Whether the part whose numbers these are has the particles of a place, as its own or in its halo.
 bool has_place(const ParameterBlock& values, int place);
+
+/// To tell whether two processes have the same: of the bytes, after those of which `before` is.
+std::uint64_t digest_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325);
 
 }  // namespace wavetank

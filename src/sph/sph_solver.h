@@ -69,8 +69,10 @@ class SphSolver final : public Solver, private StepEngine {
   void set_cuts(const std::vector<int>& cuts);
   /// What the parts have saved of their own particles, as one would save it that had them all.
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
-  /// Own particles.
-  std::int64_t own_count() const { return part_ ? part_->own : count_; }
+  /// Particles of the part that has the most, over those of the mean; after a step the same on all parts.
+  double imbalance() const;
+  /// Of what kernels are made of and are told: other solvers of the same case have the same, whatever their part.
+  std::uint64_t digest() const;
 
  private:
   using Buffer = compute::Buffer<Real>;

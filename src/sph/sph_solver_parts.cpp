@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,39 @@ namespace {
 
 // Of the report's least id: no particle is in violation.
 constexpr std::int64_t nobody_offends = std::numeric_limits<std::int64_t>::max();
+
+/// A number that one part has, as integers that are 0 of the others: their sum has its bits, whatever it is.
+std::int64_t bits_of(double value) {
+  std::int64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+double value_of(std::int64_t bits) {
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// What `teller` knows of the particle that a report names, for all.
+void tell_of_offender(parallel::Group& group, StepReport& report, bool teller) {
+  std::vector<std::int64_t> told(8, 0);
+  if (teller) {
+    told[0] = report.offender;
+    told[1] = report.offender_id;
+    for (int k = 0; k < 3; ++k) {
+      told[2 + k] = bits_of(report.offender_position[k]);
+      told[5 + k] = bits_of(report.offender_velocity[k]);
+    }
+  }
+  told = group.sums(told);
+  report.offender = told[0];
+  report.offender_id = static_cast<std::uint32_t>(told[1]);
+  for (int k = 0; k < 3; ++k) {
+    report.offender_position[k] = value_of(told[2 + k]);
+    report.offender_velocity[k] = value_of(told[5 + k]);
+  }
+}
 
 }  // namespace
 
@@ -115,9 +149,10 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
     if (row.kind == ReportRow::Kind::greatest) greatest.push_back(values[reports_.greatest(row.name)]);
     if (row.kind == ReportRow::Kind::count) counts.push_back(counted[reports_.integer(row.name)]);
   }
+  greatest.push_back(counted[reports_.integer("particles")]);
   greatest = group.greatest(greatest);
   counts = group.sums(counts);
-  part_->own = counted[reports_.integer("particles")];
+  part_->most_own = static_cast<std::int64_t>(greatest.back());
   std::map<std::string, double> found;
   std::size_t next_greatest = 0, next_count = 0;
   for (const ReportRow& row : reports_.rows()) {
@@ -148,12 +183,12 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   }
   if (report.not_finite + report.outside + report.too_fast == 0) return report;
   // the one of the least id is told of, by the part that has it
-  StepReport described = report;
   const bool offends =
       counted[reports_.integer("not_finite")] + counted[reports_.integer("outside")] + counted[reports_.integer("fast")] > 0;
-  if (offends) describe_offender(described, counted[reports_.integer("offender")]);
-  const std::int64_t least = group.least({offends ? static_cast<std::int64_t>(described.offender_id) : nobody_offends})[0];
-  return offends && described.offender_id == least ? described : report;
+  if (offends) describe_offender(report, counted[reports_.integer("offender")]);
+  const std::int64_t least = group.least({offends ? static_cast<std::int64_t>(report.offender_id) : nobody_offends})[0];
+  tell_of_offender(group, report, offends && report.offender_id == least);
+  return report;
 }
 
 template <class Real>
@@ -193,6 +228,23 @@ double SphSolver<Real>::greatest_drift() const {
   return schedule_.drift() * (0.5 * case_.numerics.courant * discretisation_.smoothing_length + shift);
 }
 
+template <class Real>
+double SphSolver<Real>::imbalance() const {
+  const Parting& parting = part_->parting();
+  return static_cast<double>(part_->most_own) * parting.group->size() / static_cast<double>(parting.particles);
+}
+
+template <class Real>
+std::uint64_t SphSolver<Real>::digest() const {
+  std::uint64_t digest = digest_of(text_of(options_));
+  ParameterBlock values = *values_;
+  for (const ParameterRow& row : part_parameters()) values.set(row.name, 0);
+  const std::vector<char> numbers = values.template bytes<double>();
+  digest = digest_of({numbers.data(), numbers.size()}, digest);
+  for (const auto& [name, text] : sources_) digest = digest_of(name + text, digest);
+  return digest;
+}
+
 #define WAVETANK_PARTS(Real)                                                                           \
   template void SphSolver<Real>::bind_part();                                                          \
   template void SphSolver<Real>::over_own(const BoundSweep&) const;                                    \
@@ -205,7 +257,9 @@ double SphSolver<Real>::greatest_drift() const {
   template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \
   template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;       \
   template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
-  template double SphSolver<Real>::greatest_drift() const;
+  template double SphSolver<Real>::greatest_drift() const;                                             \
+  template double SphSolver<Real>::imbalance() const;                                                  \
+  template std::uint64_t SphSolver<Real>::digest() const;
 WAVETANK_PARTS(float)
 WAVETANK_PARTS(double)
 

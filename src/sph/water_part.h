@@ -54,7 +54,7 @@ class WaterPart {
   int watched() const { return watched_; }
 
   std::vector<std::vector<Access>> exchanges;  ///< of each stage of the schedule
-  std::int64_t own = 0;                        ///< particles
+  std::int64_t most_own = 0;                   ///< own particles of the part that has the most, after the last step
 
  private:
   struct Carried {

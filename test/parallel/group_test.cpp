@@ -59,6 +59,23 @@ TEST(Group, OneThatFailsStopsThoseThatWait) {
   threads.run([&](int rank) { EXPECT_EQ(threads.member(rank).sums({1})[0], 3); });
 }
 
+TEST(Group, AsATeamObeysOrders) {
+  ThreadGroup threads(3);
+  EXPECT_EQ(threads.here(), (std::vector<int>{0, 1, 2}));
+  const std::vector<Bytes> replies = threads.ask({7}, [&](int rank, const Bytes& order) {
+    const auto all = threads.member(rank).sums({rank});
+    return Bytes{order[0], static_cast<char>(rank), static_cast<char>(all[0])};
+  });
+  EXPECT_EQ(replies, (std::vector<Bytes>{{7, 0, 3}, {7, 1, 3}, {7, 2, 3}}));
+  EXPECT_EQ(error_of([&] {
+              threads.ask({}, [](int rank, const Bytes&) -> Bytes {
+                if (rank == 2) throw Error("the device of part 2 is lost");
+                return {};
+              });
+            }),
+            "the device of part 2 is lost");
+}
+
 TEST(Group, ThatTakesTurnsRunsOneAtATime) {
   ThreadGroup threads(3, true);
   std::atomic<int> running{0}, most{0};

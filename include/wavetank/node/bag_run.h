@@ -10,6 +10,7 @@
 #include "wavetank/node/run_options.h"
 #include "wavetank/node/run_recorder.h"
 #include "wavetank/node/vtk_recorder.h"
+#include "wavetank/ranks/ranks.h"
 #include "wavetank/simulation/simulation.h"
 
 namespace wavetank {
@@ -20,8 +21,8 @@ class BagRun {
   enum class Outcome { done, interrupted, violated };
 
   /// Reads the case and opens the bag, so that whatever is wrong with them shows before the long start. `interrupted` is watched
-  /// throughout.
-  BagRun(const RunOptions& options, const std::atomic<int>& interrupted);
+  /// throughout. `ranks`: of which this process is the first; null of one that is alone.
+  BagRun(const RunOptions& options, const std::atomic<int>& interrupted, parallel::Ranks* ranks = nullptr);
 
   /// Starts and runs the simulation, ends the bag and reports on standard output. Throws Error for whatever stops it but a violation; where
   /// the disk does not take the bag, the files for ParaView or the snapshot any more, after all that could be was kept, and what() says
@@ -52,6 +53,7 @@ class BagRun {
 
   const RunOptions& options_;
   const std::atomic<int>& interrupted_;
+  parallel::Ranks* ranks_;
   Case case_;
   StampClock clock_;
   std::unique_ptr<RunRecorder> recorder_;
@@ -63,7 +65,8 @@ class BagRun {
   SolverState first_, last_;
   EnergySample energies_;
   Clock::time_point began_;
-  double seconds_ = 0;  ///< of wall time, stepping
+  double seconds_ = 0;          ///< of wall time, stepping
+  double waited_at_start_ = 0;  ///< s, for other ranks, before the first step
   std::string violation_;
   std::string cut_short_;     ///< why bag, files or snapshot are not as they were asked for, and where they are; empty = they are
   std::string save_problem_;  ///< why the snapshot is not where it was wanted

@@ -29,7 +29,8 @@ namespace wavetank {
 class TankNode {
  public:
   /// Throws Error if the bag cannot be made or two instruments share a topic. The simulation starts in its own thread meanwhile.
-  TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup);
+  /// `team`: as SimulationOptions has it.
+  TankNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, NodeSetup setup, parallel::Team* team = nullptr);
   ~TankNode();
 
   /// Whether the process should end: when it cannot start, some seconds after a failure, or at the end of the duration if so asked.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 /// Several parts of one computation that talk to each other. Nothing here knows what a particle is.
@@ -29,17 +30,40 @@ class Group {
   virtual std::vector<std::int64_t> least(const std::vector<std::int64_t>& values) = 0;
 };
 
+/// All parts, as the process sees them that has the first: they do what it says.
+class Team {
+ public:
+  /// What a part does with an order; what it returns is its reply.
+  using Work = std::function<Bytes(int rank, const Bytes& order)>;
+
+  virtual ~Team() = default;
+  virtual int size() const = 0;
+  /// Ranks of the parts that are in this process.
+  virtual std::vector<int> here() const = 0;
+  /// As one of those sees all.
+  virtual Group& member(int rank) = 0;
+  /// For messages: "part 1 of 3", and where that is.
+  virtual std::string name_of(int rank) const = 0;
+  /// Has every part obey an order at once, and waits for their replies, by rank; `work` is for the parts that are here, and is called for
+  /// each in a thread of its own. Throws what the first part that failed has thrown, or told of it as Error; the others are then stopped
+  /// where they wait for a part.
+  virtual std::vector<Bytes> ask(const Bytes& order, const Work& work) = 0;
+};
+
 /// Parts that are threads of this process.
-class ThreadGroup {
+class ThreadGroup final : public Team {
  public:
   /// `takes_turns`: only one of them runs at a time, until it waits for others, as devices need whose drivers know of one thread alone.
   explicit ThreadGroup(int size, bool takes_turns = false);
-  ~ThreadGroup();
+  ~ThreadGroup() override;
   ThreadGroup(const ThreadGroup&) = delete;
   ThreadGroup& operator=(const ThreadGroup&) = delete;
 
-  int size() const;
-  Group& member(int rank);
+  int size() const override;
+  std::vector<int> here() const override;
+  Group& member(int rank) override;
+  std::string name_of(int rank) const override;
+  std::vector<Bytes> ask(const Bytes& order, const Work& work) override;
   /// Does `work` for every rank at once, each in a thread of its own, and returns when all are done. Throws what the first part that
   /// failed has thrown; the others are then stopped where they wait for a part, and messages under way are forgotten.
   void run(const std::function<void(int rank)>& work);

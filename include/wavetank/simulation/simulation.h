@@ -17,6 +17,10 @@
 #include "wavetank/simulation/case_size.h"
 #include "wavetank/sph/pair_count.h"
 
+namespace wavetank::parallel {
+class Team;
+}
+
 namespace wavetank {
 
 /// The fluid at one instant, for clouds and files. Arrays of one length, in no particular order; `id` names a particle for good.
@@ -70,6 +74,9 @@ struct SimulationOptions {
   /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
   std::function<void(const std::string& what, double fraction)> progress;
   bool time_kernels = false;
+  /// Processes that make the steps, each of them a part of the water, with this one, which is the first and has all the water besides. The
+  /// others serve it by part_work (simulation/part_work.h). Must outlive the simulation. None: devices of this process alone.
+  parallel::Team* team = nullptr;
 };
 
 /// What `--check` reports: from the layout, and a few steps and readings that are timed.

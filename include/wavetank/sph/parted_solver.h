@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "wavetank/parallel/group.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
@@ -24,5 +27,24 @@ struct PartedSolverOptions {
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& settled_case, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
                                            const PartedSolverOptions& options = {});
+
+/// The same with a part in each process of a team, by the one that has the first, which also has the solver of all the water. The others
+/// make theirs with it, by work_of_part, from the case as `scene_text` has it. Throws Error besides if one of them has made another of it;
+/// tells of those whose bits may be others, and of those that were given too few cores.
+std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
+                                           const Case& settled_case, const Layout& layout, const Discretisation& discretisation,
+                                           const std::vector<Eigen::Vector3d>& centres);
+
+/// What another process of the team makes its part of.
+struct PreparedPart {
+  compute::Device device;
+  Case scene;  ///< settled
+  Layout layout;
+  Discretisation discretisation;
+};
+using PartPreparation = std::function<PreparedPart(const std::string& scene_text)>;
+
+/// What that process does for the first. `member` must outlive it.
+parallel::Team::Work work_of_part(parallel::Group& member, PartPreparation prepare);
 
 }  // namespace wavetank

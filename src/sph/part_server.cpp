@@ -1,0 +1,185 @@
+#include "part_server.h"
+
+#include <sched.h>
+
+#include <utility>
+
+#include "sph_solver.h"
+#include "wavetank/common/error.h"
+#include "wavetank/parallel/packed.h"
+#include "wavetank/sph/parted_solver.h"
+
+namespace wavetank {
+namespace {
+
+using parallel::Bytes;
+using parallel::Packed;
+using parallel::Unpacked;
+
+FirstOrder first_order(Unpacked& from) {
+  FirstOrder order;
+  order.parting = from.value<Parting>();
+  const auto numbers = from.values<double>();
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) order.centres.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+  order.scene = from.text();
+  return order;
+}
+
+std::vector<FilmLump> lumps_of(const std::vector<double>& numbers) {
+  std::vector<FilmLump> lumps;
+  for (std::size_t k = 0; k + 4 < numbers.size(); k += 5)
+    lumps.push_back({Eigen::Vector3d(numbers[k], numbers[k + 1], numbers[k + 2]), numbers[k + 3], numbers[k + 4]});
+  return lumps;
+}
+
+/// Processors that this process may run on.
+int cores_here() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+}
+
+/// Whatever lies in a third corner of two dimensions is left out.
+std::uint64_t digest_of_walls(const std::vector<Facet>& facets, int dimensions) {
+  std::uint64_t digest = digest_of("walls");
+  const auto add = [&digest](const void* bytes, std::size_t size) { digest = digest_of({static_cast<const char*>(bytes), size}, digest); };
+  for (const Facet& facet : facets) {
+    for (int k = 0; k < dimensions; ++k) add(facet.corners[k].data(), sizeof(Eigen::Vector3d));
+    add(facet.normal.data(), sizeof(Eigen::Vector3d));
+    add(&facet.owner, sizeof facet.owner);
+  }
+  return digest;
+}
+
+template <class Real>
+class PartServerOf final : public PartServer {
+ public:
+  PartServerOf(const compute::Device& device, const SolverRows& rows, const Case& scene, const Layout& dry,
+               const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
+      : device_(device),
+        walls_(digest_of_walls(dry.facets, discretisation.dimensions)),
+        solver_(rows, device, scene, dry, discretisation, centres) {}
+
+  Bytes obey(const Bytes& order) override {
+    Unpacked from(order);
+    switch (from.value<PartOrder>()) {
+      case PartOrder::advance:
+        report_ = solver_.advance(nullptr);
+        return {};
+      case PartOrder::shorten:
+        time_step_ = solver_.shorten_step(from.value<double>());
+        return {};
+      case PartOrder::limit:
+        solver_.limit_time_step(from.value<double>());
+        return {};
+      case PartOrder::film:
+        solver_.set_film(lumps_of(from.values<double>()));
+        return {};
+      case PartOrder::save:
+        return solver_.save();
+      case PartOrder::cut: {
+        const auto cuts = from.values<int>();
+        solver_.set_cuts(cuts);
+        solver_.restore(from.values<char>());
+        return {};
+      }
+      case PartOrder::memory:
+        return Packed().value(solver_.device_memory()).take();
+      case PartOrder::begin:
+        break;
+    }
+    throw Error("a part of the water was asked for what it does not know");
+  }
+  PartFacts facts() const override {
+    const compute::DeviceInfo& info = device_.info();
+    return {solver_.digest() ^ walls_, info.describe(), info.name + " (" + info.platform_name + ", driver " + info.driver + ")",
+            cores_here(), info.is_gpu ? 0 : static_cast<int>(info.compute_units)};
+  }
+  const StepReport& report() const override { return report_; }
+  double time_step() const override { return time_step_; }
+  double imbalance() const override { return solver_.imbalance(); }
+
+ private:
+  compute::Device device_;
+  std::uint64_t walls_;
+  SphSolver<Real> solver_;
+  StepReport report_;
+  double time_step_ = 0;
+};
+
+/// A part that is made when rank 0 has told what it is.
+class RemotePart {
+ public:
+  RemotePart(parallel::Group& member, PartPreparation prepare) : member_(member), prepare_(std::move(prepare)) {}
+
+  Bytes obey(const Bytes& order) {
+    Unpacked from(order);
+    if (from.value<PartOrder>() != PartOrder::begin) {
+      if (!server_) throw Error("a part of the water was asked for steps before it was made");
+      return server_->obey(order);
+    }
+    server_.reset();
+    FirstOrder first = first_order(from);
+    const PreparedPart prepared = prepare_(first.scene);
+    first.parting.group = &member_;
+    server_ = make_part_server(prepared.device, first.parting, prepared.scene, prepared.layout, prepared.discretisation, first.centres);
+    return packed(server_->facts());
+  }
+
+ private:
+  parallel::Group& member_;
+  PartPreparation prepare_;
+  std::unique_ptr<PartServer> server_;
+};
+
+}  // namespace
+
+parallel::Bytes packed(const FirstOrder& order) {
+  std::vector<double> numbers;
+  for (const Eigen::Vector3d& centre : order.centres) numbers.insert(numbers.end(), centre.data(), centre.data() + 3);
+  return Packed().value(PartOrder::begin).value(order.parting).values(numbers).text(order.scene).take();
+}
+
+parallel::Bytes packed(const PartFacts& facts) {
+  return Packed().value(facts.digest).text(facts.device).text(facts.kind).value(facts.cores).value(facts.units).take();
+}
+
+PartFacts part_facts(const parallel::Bytes& bytes) {
+  Unpacked from(bytes);
+  PartFacts facts;
+  facts.digest = from.value<std::uint64_t>();
+  facts.device = from.text();
+  facts.kind = from.text();
+  facts.cores = from.value<int>();
+  facts.units = from.value<int>();
+  return facts;
+}
+
+void check_precision(const Case& scene, const compute::Device& device) {
+  if (scene.numerics.precision == Precision::double_ && !device.info().has_double)
+    throw Error("numerics/precision is double, but the device " + device.info().describe() +
+                " has no double precision: choose single or another device.");
+}
+
+std::unique_ptr<PartServer> make_part_server(const compute::Device& device, const Parting& parting, const Case& scene, const Layout& layout,
+                                             const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
+  Layout dry = layout;
+  dry.particles.clear();
+  dry.volumes.clear();
+  dry.levels.clear();
+  SolverRows rows = rows_for(scene);
+  rows.fields.insert(rows.fields.end(), part_fields().begin(), part_fields().end());
+  rows.parameters.insert(rows.parameters.end(), part_parameters().begin(), part_parameters().end());
+  rows.parting = parting;
+  if (scene.numerics.precision == Precision::single)
+    return std::make_unique<PartServerOf<float>>(device, rows, scene, dry, discretisation, centres);
+  check_precision(scene, device);
+  return std::make_unique<PartServerOf<double>>(device, rows, scene, dry, discretisation, centres);
+}
+
+parallel::Team::Work work_of_part(parallel::Group& member, PartPreparation prepare) {
+  const auto part = std::make_shared<RemotePart>(member, std::move(prepare));
+  return [part](int, const Bytes& order) { return part->obey(order); };
+}
+
+}  // namespace wavetank

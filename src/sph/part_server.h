@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "parting.h"
+#include "wavetank/compute/device.h"
+#include "wavetank/geometry/layout.h"
+#include "wavetank/parallel/group.h"
+#include "wavetank/sph/discretisation.h"
+#include "wavetank/sph/solver.h"
+
+namespace wavetank {
+
+/// What the parts are asked to do, as the first byte of an order, and what comes after it.
+enum class PartOrder : char {
+  begin,    ///< a part in another process: FirstOrder; replies with PartFacts
+  advance,  ///< a step
+  shorten,  ///< s, of the next step
+  limit,    ///< s, of every step
+  film,     ///< lumps
+  save,     ///< replies with the state of the part's own particles
+  cut,      ///< cuts, and a state of all the water, of which the part takes what is its
+  memory,   ///< replies with the bytes on its device
+};
+
+/// From which a process makes its part: the rest follows from the case.
+struct FirstOrder {
+  Parting parting;
+  std::vector<Eigen::Vector3d> centres;  ///< as make_solver takes them
+  std::string scene;                     ///< the settled case as text, which PartPreparation reads
+};
+parallel::Bytes packed(const FirstOrder& order);
+
+/// What the process that has all the water checks of a part.
+struct PartFacts {
+  std::uint64_t digest = 0;  ///< of what its kernels are made of and told, and of the walls
+  std::string device;        ///< in words
+  std::string kind;          ///< of device: parts on others may have other last bits
+  int cores = 0;             ///< that the process may use
+  int units = 0;             ///< of its device, where that is a processor, else 0
+};
+parallel::Bytes packed(const PartFacts& facts);
+PartFacts part_facts(const parallel::Bytes& bytes);
+
+/// Makes the steps of one part of the water, as orders have it.
+class PartServer {
+ public:
+  virtual ~PartServer() = default;
+  virtual parallel::Bytes obey(const parallel::Bytes& order) = 0;
+  virtual PartFacts facts() const = 0;
+  /// Of the last step, the same of all parts.
+  virtual const StepReport& report() const = 0;
+  /// Of the next step, s, after an order to shorten it.
+  virtual double time_step() const = 0;
+  /// As SphSolver has it.
+  virtual double imbalance() const = 0;
+};
+
+/// Throws Error for a device without the precision that the case asks for.
+void check_precision(const Case& scene, const compute::Device& device);
+
+/// Throws Error as make_solver does. `layout`: of all the water.
+std::unique_ptr<PartServer> make_part_server(const compute::Device& device, const Parting& parting, const Case& settled_case,
+                                             const Layout& layout, const Discretisation& discretisation,
+                                             const std::vector<Eigen::Vector3d>& centres);
+
+}  // namespace wavetank
