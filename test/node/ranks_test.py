@@ -14,7 +14,7 @@ import program_runner
 from program_runner import PROGRAM, ProgramTest, interrupt, read_line_with
 
 MPIRUN = shutil.which("mpirun")
-RANKS = ["--oversubscribe", "--bind-to", "none", "--mca", "odls_base_sigkill_timeout", "4"]
+RANKS = ["--oversubscribe", "--bind-to", "none", "--mca", "odls_base_sigkill_timeout", "2"]
 # Root may run it, as in containers; every process has one of the cores; and no network is looked for.
 SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -26,7 +26,7 @@ SETTINGS = {
 }
 # Water that runs out along a tank, over the step that the small case has.
 DAM_BREAK = {
-    "duration": 0.2,
+    "duration": 0.1,
     "fluid__sound_speed": 30.0,
     "fluid__fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0, 0.4]}}],
     "tank": {"box": {"size": [1.4, 0, 0.8]}},
@@ -56,6 +56,15 @@ def process_of_rank(mpirun, rank):
         except (OSError, ValueError):
             pass  # gone meanwhile
     raise AssertionError("mpirun has no rank %d" % rank)
+
+
+def runs(pid):
+    """Neither gone nor waiting to be taken note of."""
+    try:
+        with open("/proc/%d/stat" % pid) as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 class Ranks(ProgramTest):
@@ -104,7 +113,7 @@ class Ranks(ProgramTest):
         """Some steps into a run of minutes."""
         process = self.start(ranks, self.dam_break(duration=60.0), "--bag", "long.bag")
         read_line_with(process, "device memory")
-        time.sleep(1)
+        time.sleep(0.5)
         return process
 
     def bytes_of(self, name):
@@ -129,7 +138,7 @@ class Ranks(ProgramTest):
                 self.assertEqual(sentences(result.stderr), [])
                 self.assertIn(steps, result.stdout)
                 self.assertEqual(self.bytes_of("ranks.snapshot"), self.bytes_of("threads.snapshot"))
-                self.assertEqual(self.samples_of("ranks.bag"), 21)
+                self.assertEqual(self.samples_of("ranks.bag"), 11)
 
     def test_a_case_that_cannot_be_cut_is_refused_once(self):
         box = {"name": "box", "box": {"min": [0.1, -0.1, 0.35], "max": [0.2, 0.1, 0.45]}, "motion": "free", "density": 500.0}
@@ -161,15 +170,18 @@ class Ranks(ProgramTest):
         told = [line for line in sentences(errors) if "has ended without a word" in line]
         self.assertEqual(len(told), 1, errors)
         self.assertIn("part 1 of 2 (process ", told[0])
-        self.assertGreater(self.samples_of("long.bag"), 1)
+        self.assertGreater(self.samples_of("long.bag"), 0)
 
     def test_the_first_rank_that_is_killed_takes_the_others_with_it(self):
         process = self.start_long_run(2)
         other = process_of_rank(process, 1)
         os.kill(process_of_rank(process, 0), signal.SIGKILL)
-        process.communicate(timeout=10)
+        process.communicate(timeout=20)
         self.assertNotEqual(process.returncode, 0)
-        self.assertFalse(os.path.exists("/proc/%d" % other))
+        end = time.time() + 5
+        while runs(other) and time.time() < end:
+            time.sleep(0.1)
+        self.assertFalse(runs(other))
 
     def test_an_interrupt_ends_all(self):
         process = self.start_long_run(3)
@@ -178,7 +190,7 @@ class Ranks(ProgramTest):
         self.assertIn("(interrupted)", output, errors)
         self.assertEqual(sentences(errors), [])
         self.assertNotEqual(process.returncode, 0)
-        self.assertGreater(self.samples_of("long.bag"), 1)
+        self.assertGreater(self.samples_of("long.bag"), 0)
 
     def test_trouble_of_one_is_told_by_the_first(self):
         without_devices = [":", "-n", "1", "env", "OCL_ICD_VENDORS=/nowhere", PROGRAM]
