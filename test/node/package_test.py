@@ -49,7 +49,7 @@ WITHOUT_KEY = {
     "clang-format-15",
     "black",
 }
-OPTIONAL_GROUPS = {"render", "surface", "web", "browser", "docs"}
+OPTIONAL_GROUPS = {"render", "surface", "web", "mpi", "browser", "docs"}
 
 
 def groups():
