@@ -22,6 +22,13 @@ if grep -rq '__attribute__((noinline))' "$scratch/kernels"; then
   exit 1
 fi
 
+# It takes llvm.vector.reduce.or without a word, and gives another value.
+sed -i 's/__has_builtin(__builtin_reduce_or)/0/' "$scratch/kernels/tile.cl"
+if grep -r '__builtin_reduce' "$scratch/kernels" | grep -qv 'define ANY_LANE'; then
+  echo "a kernel reduces a vector by a builtin, which oclgrind does wrong: see ANY_LANE in tile.cl" >&2
+  exit 1
+fi
+
 status=0
 WAVETANK_KERNEL_DIRECTORY="$scratch/kernels" WAVETANK_CACHE_DIRECTORY='' oclgrind --check-api --data-races --log "$scratch/log" "$program" > "$scratch/output" 2> "$scratch/errors" || status=$?
 cat "$scratch/output"
