@@ -77,29 +77,16 @@ class Ranks(ProgramTest):
 
     def mpirun(self, ranks, *arguments, more=(), options=RANKS):
         command = [MPIRUN, "-n", str(ranks)] + options + [PROGRAM] + list(arguments) + list(more)
-        return subprocess.run(
-            command,
-            cwd=self.folder,
-            env=self.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            universal_newlines=True,
-            timeout=120,
-        )
+        return subprocess.run(command, timeout=120, **self.surroundings())
+
+    def surroundings(self):
+        """In which mpirun runs."""
+        streams = dict(stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        return dict(streams, cwd=self.folder, env=self.environment)
 
     def start(self, ranks, *arguments):
         command = [MPIRUN, "-n", str(ranks)] + RANKS + [PROGRAM] + list(arguments)
-        process = subprocess.Popen(
-            command,
-            cwd=self.folder,
-            env=self.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            universal_newlines=True,
-            bufsize=1,
-        )
+        process = subprocess.Popen(command, bufsize=1, **self.surroundings())
 
         def end():
             if process.poll() is None:
