@@ -99,7 +99,7 @@ class Ranks(ProgramTest):
     def start_long_run(self, ranks):
         """Some steps into a run of minutes."""
         process = self.start(ranks, self.dam_break(duration=60.0), "--bag", "long.bag")
-        read_line_with(process, "device memory")
+        read_line_with(process, "running ")  # of its first step
         time.sleep(0.5)
         return process
 
