@@ -2,9 +2,10 @@
 //   free_flows FLOW WORD=VALUE...
 // FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
 // Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows
-// (10), alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision; and any of the case's method
-// words as KEY=WORD: scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator, equation_of_state
-// (cole), density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
+// (10), alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision, fields (a name: x, z and
+// pressure of every particle are written to NAME_T.csv at every `field_rows`th row); and any of the case's method words as KEY=WORD:
+// scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator, equation_of_state (cole),
+// density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -93,6 +94,18 @@ int close_pairs(const FluidState& fluid, double spacing, bool periodic) {
   return pairs;
 }
 
+/// A table of places, m, and pressures over ρU² (or ρω²L²), a particle a line.
+void write_field(const std::string& name, double time, const FluidState& fluid) {
+  char path[512];
+  std::snprintf(path, sizeof path, "%s_%.2f.csv", name.c_str(), time);
+  std::FILE* file = std::fopen(path, "w");
+  if (file == nullptr) throw Error("cannot write " + std::string(path));
+  std::fprintf(file, "x,z,pressure\n");
+  for (std::size_t i = 0; i < fluid.id.size(); ++i)
+    std::fprintf(file, "%.5f,%.5f,%.5f\n", fluid.position[i].x(), fluid.position[i].z(), fluid.pressure[i] / 1000);
+  if (std::fclose(file) != 0) throw Error("cannot write " + std::string(path));
+}
+
 template <class Real>
 void run(const Flow& flow, const Words& words, Precision precision) {
   const double side = flow.is_periodic() ? 1 : 4, sound_speed = number(words, "sound", 10) * flow.greatest_speed();
@@ -167,7 +180,9 @@ void run(const Flow& flow, const Words& words, Precision precision) {
     return sum;
   };
   double first = 0, start_volume = 0, start_mass = 0, shift = 0, shift_sum = 0;
-  int shift_count = 0;
+  int shift_count = 0, row = 0;
+  const std::string fields = words.count("fields") != 0 ? words.at("fields") : "";
+  const int field_rows = static_cast<int>(number(words, "field_rows", 1));
   std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
               "dV/V", "dm/m", "V least", "V most", "close", "p centre");
   const auto centre = solver->make_points({Vector3d(0.5 * side, 0, 0.5 * side)});
@@ -199,6 +214,8 @@ void run(const Flow& flow, const Words& words, Precision precision) {
                   volume / start_volume - 1, mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
                   solver->evaluate(*centre)[0].pressure / 1000);
       std::fflush(stdout);
+      if (!fields.empty() && row % field_rows == 0) write_field(fields, k * step, fluid);
+      ++row;
       shift_sum = 0;
       shift_count = 0;
     }
