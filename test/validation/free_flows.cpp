@@ -183,14 +183,14 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   int shift_count = 0, row = 0;
   const std::string fields = words.count("fields") != 0 ? words.at("fields") : "";
   const int field_rows = static_cast<int>(number(words, "field_rows", 1));
-  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
-              "dV/V", "dm/m", "V least", "V most", "close", "p centre");
+  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
+              "dV/V", "dm/m", "V least", "V most", "close", "p centre", "p worst");
   const auto centre = solver->make_points({Vector3d(0.5 * side, 0, 0.5 * side)});
   for (int k = 0; k <= steps; ++k) {
     if (k % std::max(1, steps / rows) == 0 || k == steps) {
       const FluidState fluid = solver->download();
       const double energy = kinetic(fluid);
-      double volume = 0, mass = 0, least = 1e9, most = 0, square = 0, error = 0, speed = 0;
+      double volume = 0, mass = 0, least = 1e9, most = 0, square = 0, error = 0, worst = 0, speed = 0;
       for (std::size_t i = 0; i < fluid.id.size(); ++i) {
         const double own = fluid.mass[i] / (1000 * (1 + fluid.compression[i])), relative = own / (flow.spacing * flow.spacing);
         volume += own;
@@ -200,7 +200,9 @@ void run(const Flow& flow, const Words& words, Precision precision) {
         square += std::pow(fluid.pressure[i] / 1000, 2);
         Vector3d at = fluid.position[i];
         at.x() -= flow.drift * k * step;
-        error += std::pow((fluid.pressure[i] - flow.pressure(at)) / 1000, 2);
+        const double wrong = (fluid.pressure[i] - flow.pressure(at)) / 1000;
+        error += wrong * wrong;
+        worst = std::max(worst, std::abs(wrong));
         speed = std::max(speed, (fluid.velocity[i] - Vector3d(flow.drift, 0, 0)).norm());
       }
       if (k == 0) {
@@ -209,10 +211,10 @@ void run(const Flow& flow, const Words& words, Precision precision) {
         start_mass = mass;
       }
       const double count = static_cast<double>(fluid.id.size());
-      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d %9.5f\n", k * step, energy / first, speed, shift,
-                  shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count),
+      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d %9.5f %9.4f\n", k * step, energy / first, speed,
+                  shift, shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count),
                   volume / start_volume - 1, mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
-                  solver->evaluate(*centre)[0].pressure / 1000);
+                  solver->evaluate(*centre)[0].pressure / 1000, worst);
       std::fflush(stdout);
       if (!fields.empty() && row % field_rows == 0) write_field(fields, k * step, fluid);
       ++row;
