@@ -23,6 +23,8 @@ class SnapshotBlocks {
 
   template <class T>
   void put(const std::string& name, const std::vector<T>& values);
+  bool has(const std::string& name) const { return blocks_.count(name) != 0; }
+  void remove(const std::string& name) { blocks_.erase(name); }
   /// Throws Error if the block is missing, or does not hold `count` such values.
   template <class T>
   std::vector<T> get(const std::string& name, std::size_t count) const;

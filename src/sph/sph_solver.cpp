@@ -143,6 +143,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   values_.emplace(rows.parameters, ParameterSource{case_, layout, discretisation_, grid_shape_, static_cast<int>(images_.size())});
   accelerates_by_gradients_ = accelerate_by_gradients(rows.methods(scene));
   compresses_by_gradients_ = compress_by_gradients(rows.methods(scene));
+  // least squares are exact at the places alone that they were found for
+  holds_gradients_ = accelerates_by_gradients_ && compresses_by_gradients_ && scene.numerics.gradients == Gradients::sph &&
+                     scene.numerics.integrator == Integrator::symplectic;
   add_options(rows.methods(scene), options_);
   if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() &&
       options_.at("THIN_WALLS") == 0)
@@ -306,7 +309,7 @@ void SphSolver<Real>::sort() {
   }
   add_waiting();
   surroundings_.grid.sort(count_);
-  blocks_are_of_now_ = gradients_are_of_now_ = false;
+  forget_gradients();
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
   surroundings_.reach = static_cast<Real>(discretisation_.support);
@@ -333,7 +336,7 @@ void SphSolver<Real>::walls_at(double fraction) {
 
 template <class Real>
 void SphSolver<Real>::find_accelerations(Slot state) {
-  if (accelerates_by_gradients_) find_gradients(state);
+  if (accelerates_by_gradients_ && !gradients_are_held_) find_gradients(state);
   load_walls(state);
   over_own(kernels_.momentum[state]);
   hold_zones(state);
@@ -363,6 +366,20 @@ void SphSolver<Real>::find_gradients(Slot state) {
   over_own(kernels_.gradients[state]);
   refresh("gradients");
   blocks_are_of_now_ = state == Slot::now;
+  gradients_are_held_ = holds_gradients_ && blocks_are_of_now_;
+}
+
+template <class Real>
+void SphSolver<Real>::forget_gradients() {
+  blocks_are_of_now_ = gradients_are_of_now_ = gradients_are_held_ = false;
+}
+
+template <class Real>
+void SphSolver<Real>::list_blocks() {
+  if (listed_blocks_ == 0) return;
+  reserve_blocks();
+  over_own(kernels_.gradients[Slot::now]);
+  blocks_are_of_now_ = true;
 }
 
 template <class Real>

@@ -108,7 +108,8 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
   /// Without the other parts, which all have what they need.
   void sort_alone();
-  void upload_rates(const std::vector<Real>& by_id);
+  void upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id);
+  int gradient_count() const { return static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_)); }
   compute::Arguments arguments() const;
   compute::Arguments arguments_of(Slot state) const;
   /// With the present options.
@@ -173,6 +174,10 @@ class SphSolver final : public Solver, private StepEngine {
   void load_walls(Slot state);
   void sweep_surface();
   void find_gradients(Slot state);
+  /// They are of another state, or order, of the particles.
+  void forget_gradients();
+  /// As finding gradients does, which are found for nothing.
+  void list_blocks();
   /// Tiles that sweeps go over.
   int tiles() const { return part_ ? part_->tiles() : (count_ + tiling_.particles.own - 1) / tiling_.particles.own; }
   /// Room for the blocks of candidates of each, where gradients list them.
@@ -234,6 +239,8 @@ class SphSolver final : public Solver, private StepEngine {
   int listed_blocks_ = 0;              ///< of candidates of a tile, at the most
   bool blocks_are_of_now_ = false;     ///< and not of another state, or order, of the particles
   bool gradients_are_of_now_ = false;  ///< they were found ahead of the stage that needs them
+  bool holds_gradients_ = false;       ///< the middle of a step goes by those of its start
+  bool gradients_are_held_ = false;    ///< those are there
   int long_axes_ = 0;                  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;

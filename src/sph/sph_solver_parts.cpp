@@ -75,7 +75,7 @@ void SphSolver<Real>::bind_part() {
   carry("acceleration", places(ParticleArray::rates, {"u", "v", "w"}), rates_);
   carry("compression rate", places(ParticleArray::rates, evolving), rates_);
   carry("shift", places(ParticleArray::state, {"shift_x", "shift_y", "shift_z"}), state_);
-  carry("gradients", first(static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_))), gradient_);
+  carry("gradients", first(gradient_count()), gradient_);
   if (shifts()) carry("surroundings", first(field::around_count), around_);
 }
 
@@ -133,7 +133,7 @@ void SphSolver<Real>::sort_part() {
 template <class Real>
 void SphSolver<Real>::sort_alone() {
   surroundings_.grid.sort(count_);
-  blocks_are_of_now_ = gradients_are_of_now_ = false;
+  forget_gradients();
   std::swap(state_, half_);
   std::swap(id_, spare_id_);
   surroundings_.reach = static_cast<Real>(discretisation_.support);

@@ -68,7 +68,7 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
 
 template <class Real>
 std::vector<WallWrench> SphSolver<Real>::wrenches() {
-  if (accelerates_by_gradients_) find_gradients(Slot::now);
+  if (accelerates_by_gradients_ && !gradients_are_held_) find_gradients(Slot::now);
   load_walls(Slot::now);  // at this instant; the step found its own in its middle
   std::vector<int> owners(centres_.size());
   std::iota(owners.begin(), owners.end(), 0);

@@ -17,6 +17,7 @@ constexpr const char* next_id_block = "particles: next id";
 constexpr const char* step_block = "step: next, greatest speed, greatest acceleration";
 constexpr const char* lists_block = "walls: poses of the lists";
 constexpr const char* guard_block = "guard: impulses";
+constexpr const char* gradients_block = "particles: gradients";  // one component after the other
 
 std::string block_of(const FieldRow& row, const std::string& component) {
   return (row.array == ParticleArray::state ? "particles: " : "particles: rate of ") + component;
@@ -54,6 +55,15 @@ std::vector<char> SphSolver<Real>::save() const {
     for (const std::string& component : row.components)
       blocks.put(block_of(row, component), in_order([&](int i) { return from[index_of(component.c_str(), i, row.array)]; }));
   }
+  if (gradients_are_held_) {
+    const std::vector<Real> gradients = gradient_.download();
+    std::vector<Real> all;
+    for (int k = 0; k < gradient_count(); ++k) {
+      const std::vector<Real> component = in_order([&](int i) { return gradients[static_cast<std::size_t>(k) * stride_ + i]; });
+      all.insert(all.end(), component.begin(), component.end());
+    }
+    blocks.put(gradients_block, all);
+  }
   blocks.put(step_block, std::vector<double>{step_, greatest_speed_, greatest_acceleration_});
   blocks.put(lists_block, moving_walls_ ? moving_walls_->listed() : std::vector<double>());
   blocks.put(guard_block, guarded_.values());
@@ -82,6 +92,13 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
       fields.back().second.push_back(blocks.get<Real>(names.back(), id.size()));
     }
   }
+  std::vector<std::vector<Real>> gradients;
+  if (holds_gradients_ && blocks.has(gradients_block)) {
+    names.emplace_back(gradients_block);
+    const std::vector<Real> all = blocks.get<Real>(gradients_block, gradient_count() * id.size());
+    for (auto from = all.begin(); from != all.end(); from += static_cast<std::ptrdiff_t>(id.size()))
+      gradients.emplace_back(from, from + static_cast<std::ptrdiff_t>(id.size()));
+  }
   const std::vector<double> step = blocks.get<double>(step_block, 3);
   const std::vector<double> listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
   const std::vector<double> impulses = blocks.get<double>(guard_block, guarded_.values().size());
@@ -98,6 +115,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
     pick(id);
     for (auto& field : fields)
       for (std::vector<Real>& values : field.second) pick(values);
+    for (std::vector<Real>& values : gradients) pick(values);
   }
 
   reserve(std::max(static_cast<int>(id.size()), 1));
@@ -127,7 +145,15 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
     sort_alone();
   else
     sort_all();
-  upload_rates(rates);
+  upload_by_id(rates_, fields_.count(ParticleArray::rates), rates);
+  if (!gradients.empty()) {
+    std::vector<Real> all(gradient_.size(), Real(0));
+    for (std::size_t k = 0; k < gradients.size(); ++k)
+      std::copy(gradients[k].begin(), gradients[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * stride_));
+    list_blocks();
+    upload_by_id(gradient_, gradient_count(), all);
+    gradients_are_held_ = true;
+  }
   masses_let_in_.clear();
 }
 
@@ -163,19 +189,33 @@ std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& 
       blocks.put(block_of(row, component), all);
     }
   }
+  if (holds_gradients_ && given[0].has(gradients_block)) {
+    std::vector<std::vector<std::vector<Real>>> components(gradient_count());
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      const std::vector<Real> all = given[part].get<Real>(gradients_block, gradient_count() * ids[part].size());
+      const auto count = static_cast<std::ptrdiff_t>(ids[part].size());
+      for (int k = 0; k < gradient_count(); ++k) components[k].emplace_back(all.begin() + k * count, all.begin() + (k + 1) * count);
+    }
+    std::vector<Real> all;
+    for (const auto& values : components) {
+      const std::vector<Real> component = in_order(values);
+      all.insert(all.end(), component.begin(), component.end());
+    }
+    blocks.put(gradients_block, all);
+  }
   for (const char* of_all : {next_id_block, step_block, lists_block, guard_block}) blocks.put(of_all, given[0].get<double>(of_all));
   return blocks.bytes();
 }
 
 /// Given in the order of their ids, into that which the particles have on the device.
 template <class Real>
-void SphSolver<Real>::upload_rates(const std::vector<Real>& by_id) {
+void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id) {
   const std::vector<int> order = order_by_id(id_.download(count_));
-  std::vector<Real> rates(by_id.size(), Real(0));
-  for (int f = 0; f < fields_.count(ParticleArray::rates); ++f)
+  std::vector<Real> values(by_id.size(), Real(0));
+  for (int f = 0; f < components; ++f)
     for (int k = 0; k < count_; ++k)
-      rates[static_cast<std::size_t>(f) * stride_ + order[k]] = by_id[static_cast<std::size_t>(f) * stride_ + k];
-  rates_.upload(rates);
+      values[static_cast<std::size_t>(f) * stride_ + order[k]] = by_id[static_cast<std::size_t>(f) * stride_ + k];
+  array.upload(values);
 }
 
 template std::vector<char> SphSolver<float>::save() const;

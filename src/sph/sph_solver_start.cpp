@@ -79,6 +79,7 @@ StepReport SphSolver<Real>::start_at_rest() {
 
 template <class Real>
 StepReport SphSolver<Real>::start_from_state() {
+  forget_gradients();
   kernels_.derive.launch(count_);
   if (case_.numerics.integrator == Integrator::symplectic) {
     find_accelerations(Slot::now);

@@ -19,6 +19,7 @@ class StateBytes {
   Real get(const std::string& component, std::size_t id) { return values(component).at(id); }
   void set(const std::string& component, std::size_t id, double value) { values(component).at(id) = static_cast<Real>(value); }
   std::vector<char> bytes() {
+    if (!values_.empty()) blocks_.remove("particles: gradients");  // of what the state was
     for (const auto& [component, changed] : values_) blocks_.put("particles: " + component, changed);
     return blocks_.bytes();
   }

@@ -1,7 +1,11 @@
 // The accelerations of a tile by the sums of momentum_sums.cl, and what the guard asks about walls; with BOTH_RATES the other rates too. For momentum.cl and
 // rates.cl.
 #define WALL_FORCES 0
+#if BOTH_RATES
 #define TAKES_BLOCKS
+#else
+#define SKIPS_EMPTY_BLOCKS  // between the states whose gradients are found there is no list
+#endif
 #include "momentum_sums.cl"
 
 INLINE void accelerate_tile(__constant const parameters_t* p, int first, int count, __global const int* slot_start, __global const real* state, long stride,

@@ -209,7 +209,10 @@ INLINE void sweep_blocks(sweep_t* sums, __constant const parameters_t* p, const 
     sums->near.blocks[1 + min(kept, BLOCK_LIST)] = b.j * TILE_NEAR + TILE_NEAR - min(b.left, TILE_NEAR);
     kept += ANY_LANE(b.r2 < (tile)(p->support_squared)) ? 1 : 0;
 #endif
-    add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
+#if HAS_BLOCK_LIST && defined(SKIPS_EMPTY_BLOCKS)
+    if (ANY_LANE(b.r2 < (tile)(p->support_squared)))
+#endif
+      add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
     run += b.left <= TILE_NEAR ? 2 : 0;
   }
 #if WITH_BLOCK_LIST
