@@ -3,18 +3,21 @@
 
 scheme_figures.py PROGRAM FOLDER taylor_green|rotating_square [N]... keeps each run's table in FOLDER; what is there already is not run again.
 """
+import glob
+import math
 import os
 import subprocess
 import sys
 
 import matplotlib
+import numpy
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 SCHEMES = ["delta_sph", "riemann_parshikov", "riemann_ale"]
 LAWS = ["michel", "lind", "sun", "oger", "monaghan"]
-COLUMNS = ["t", "energy", "speed", "shift", "mean_shift", "pressure", "error", "volume", "mass", "least", "most", "close", "centre"]
+COLUMNS = ["t", "energy", "speed", "shift", "mean_shift", "pressure", "error", "volume", "mass", "least", "most", "close", "centre", "worst"]
 
 
 class Runs:
@@ -22,19 +25,31 @@ class Runs:
         self.program, self.folder = program, folder
         os.makedirs(folder, exist_ok=True)
 
-    def run(self, flow, **words):
-        """The rows of a run, as dictionaries by column."""
+    def run(self, flow, fields=None, field_rows=1, **words):
+        """The rows of a run, as dictionaries by column. `fields`: a name for the fields of every so many rows."""
         name = "_".join([flow] + ["%s-%s" % item for item in sorted(words.items())])
         path = os.path.join(self.folder, name + ".txt")
         if not os.path.exists(path):
             print("running", name, file=sys.stderr, flush=True)
             command = [self.program, flow] + ["%s=%s" % item for item in words.items()]
+            if fields:
+                os.makedirs(os.path.join(self.folder, "fields"), exist_ok=True)
+                command += ["fields=" + os.path.join(self.folder, "fields", fields), "field_rows=%d" % field_rows]
             with open(path + ".part", "w", encoding="utf-8") as out:
                 subprocess.run(command, stdout=out, check=True)
             os.rename(path + ".part", path)
         with open(path, encoding="utf-8") as file:
             lines = file.read().splitlines()[1:]
         return [dict(zip(COLUMNS, map(float, line.split()))) for line in lines]
+
+    def fields(self, name):
+        """The times and tables of a run's fields, in their order."""
+        found = []
+        for path in glob.glob(os.path.join(self.folder, "fields", name + "_*.csv")):
+            time = os.path.basename(path)[len(name) + 1 : -4]
+            if time.replace(".", "").isdigit():
+                found.append((float(time), path))
+        return [(time, numpy.genfromtxt(path, delimiter=",", names=True)) for time, path in sorted(found)]
 
 
 def mean(rows, column, begin, end):
@@ -48,8 +63,6 @@ def at(rows, column, time):
 
 
 def orders(values):
-    import math
-
     return ["%.2f" % math.log2(a / b) for a, b in zip(values, values[1:])]
 
 
@@ -76,8 +89,6 @@ def taylor_green(runs, sides):
             axes[1][0].plot([r["t"] for r in rows], [r["error"] for r in rows], style, color=colour)
             rows = found[scheme, n, "viscous"]
             axes[1][1].plot([r["t"] for r in rows], [r["energy"] for r in rows], style, color=colour)
-    import math
-
     times = [0.01 * k for k in range(51)]
     axes[1][1].plot(times, [math.exp(-16 * math.pi**2 * t / 100) for t in times], "k", linewidth=0.8, label="exact")
     for axis, title in zip(
@@ -120,16 +131,56 @@ def taylor_green(runs, sides):
             ["carried along by 2 U", "%.4f" % mean(carried, "mean_shift", 0.25, 0.5), "%.5f" % at(carried, "energy", 0.1)],
         ],
     )
+    laws(runs, sides)
+
+
+def laws(runs, sides):
+    """Figures 10 to 13, by Vila's scheme."""
+    figure, axes = plt.subplots(2, 3, figsize=(15, 8))
     lines = []
-    for law in LAWS:
+    for law, axis in zip(LAWS, axes.flat):
         cells = [law]
-        for n in sides:
-            rows = (
-                runs.run("taylor_green", scheme="riemann_ale", shifting=law, n=n, end=0.3, rows=15) if law != "michel" else found["riemann_ale", n, "inviscid"]
+        for n, style in zip(sides, [":", "-.", "--", "-"]):
+            rows = runs.run("taylor_green", fields="vortices_%s_%d" % (law, n), field_rows=12, scheme="riemann_ale", shifting=law, n=n, end=0.3, rows=15)
+            cells.append(
+                "%.3f, %.3f, %.2f, %d" % (mean(rows, "mean_shift", 0.2, 0.3), at(rows, "error", 0.3), mean(rows, "worst", 0.2, 0.3), at(rows, "close", 0.3))
             )
-            cells.append("%.3f, %.3f, %d" % (mean(rows, "mean_shift", 0.2, 0.3), at(rows, "error", 0.3), at(rows, "close", 0.3)))
+            axis.plot([r["t"] for r in rows], [r["mean_shift"] for r in rows], style, label="L/Δx = %d" % n)
+            if n == sides[-1]:
+                axes[1][2].plot([r["t"] for r in rows], [r["worst"] for r in rows], label=law)
         lines.append(cells)
-    table(["riemann_ale: max δu/U (mean of 0.2–0.3), p error/ρU² and pairs closer than Δx/2 at 0.3"] + ["L/Δx = %d" % n for n in sides], lines)
+        axis.set_title("%s: greatest shift/U" % law)
+        axis.set_ylim(0, None)
+        axis.legend(fontsize=7)
+    axes[1][2].set_title("greatest error of the pressure/ρU², L/Δx = %d" % sides[-1])
+    axes[1][2].set_ylim(0, 2)
+    axes[1][2].legend(fontsize=7)
+    for axis in axes.flat:
+        axis.set_xlabel("tU/L")
+    figure.tight_layout()
+    figure.savefig(os.path.join(runs.folder, "laws.png"), dpi=100)
+    table(
+        ["riemann_ale: max δu/U (mean of 0.2–0.3), p error/ρU² at 0.3, its greatest (mean of 0.2–0.3), pairs closer than Δx/2 at 0.3"]
+        + ["L/Δx = %d" % n for n in sides],
+        lines,
+    )
+
+    figure, axes = plt.subplots(1, len(LAWS), figsize=(3.2 * len(LAWS), 3.4), sharey=True)
+    for law, axis in zip(LAWS, axes):
+        field = runs.fields("vortices_%s_%d" % (law, sides[-1]))
+        if not field:
+            continue
+        time, particles = field[-1]
+        x = particles["x"] % 1
+        # as the paper's pictures: what was found on the left, what is right on the right
+        right = 0.25 * (numpy.cos(4 * math.pi * x) + numpy.cos(4 * math.pi * particles["z"]))
+        drawn = axis.scatter(x, particles["z"] % 1, c=numpy.where(x < 0.5, particles["pressure"], right), s=0.6, cmap="jet", vmin=-0.5, vmax=0.5, linewidths=0)
+        axis.set_title("%s, tU/L = %.2f" % (law, time))
+        axis.set_aspect("equal")
+        axis.set_xlim(0, 1)
+        axis.set_ylim(0, 1)
+    figure.colorbar(drawn, ax=axes, label="p/ρU²", shrink=0.8)
+    figure.savefig(os.path.join(runs.folder, "law_fields.png"), dpi=130, bbox_inches="tight")
 
 
 def rotating_square(runs, sides):
@@ -138,7 +189,9 @@ def rotating_square(runs, sides):
     for scheme, colour in zip(SCHEMES, ["#1f5fbf", "#2a8c3c", "#c1272d"]):
         shifts, energies, starts = [], [], []
         for n, style in zip(sides, [":", "--", "-"]):
-            rows = runs.run("square", scheme=scheme, shifting="michel", n=n, end=2.5, rows=50, sound=40)
+            end = 6 if n <= 200 else 2.5  # as far as the paper's figures of that spacing go
+            name = "square_%s_%d" % (scheme, n)
+            rows = runs.run("square", fields=name, field_rows=24, scheme=scheme, shifting="michel", n=n, end=end, rows=round(20 * end), sound=40)
             axes[0].plot([r["t"] for r in rows], [r["mean_shift"] for r in rows], style, color=colour, label="%s, %d" % (scheme, n))
             axes[1].plot([r["t"] for r in rows], [r["energy"] for r in rows], style, color=colour)
             axes[2].plot([r["t"] for r in rows], [r["centre"] for r in rows], style, color=colour)
@@ -161,6 +214,28 @@ def rotating_square(runs, sides):
         + ["p(centre), mean to 0.2, %d" % n for n in sides],
         lines,
     )
+    square_fields(runs, sides)
+
+
+def square_fields(runs, sides):
+    """Figure 16, of the finest that went to its end."""
+    n = max([n for n in sides if n <= 200] or sides)
+    fields = [runs.fields("square_%s_%d" % (scheme, n)) for scheme in SCHEMES]
+    count = max(len(field) for field in fields)
+    if count == 0:
+        return
+    figure, axes = plt.subplots(len(SCHEMES), count, figsize=(3 * count, 3.2 * len(SCHEMES)), squeeze=False)
+    for scheme, field, row in zip(SCHEMES, fields, axes):
+        for axis in row:
+            axis.axis("off")
+        for (time, particles), axis in zip(field, row):
+            drawn = axis.scatter(particles["x"] - 2, particles["z"] - 2, c=particles["pressure"], s=0.8, cmap="jet", vmin=-0.15, vmax=0, linewidths=0)
+            axis.set_title("%s, tω = %.1f" % (scheme, time), fontsize=9)
+            axis.set_aspect("equal")
+            axis.set_xlim(-1.3, 1.3)
+            axis.set_ylim(-1.3, 1.3)
+    figure.colorbar(drawn, ax=axes, label="p/ρω²L²", shrink=0.5)
+    figure.savefig(os.path.join(runs.folder, "square_fields.png"), dpi=110, bbox_inches="tight")
 
 
 def main():

@@ -71,7 +71,15 @@ def at_rest(programs, root, folder):
                 ]
             )
     table(
-        ["", "L2 error, mean of the second half, ρgH", "greatest", "kinetic over potential energy, greatest", "potential energy changed, %", "guard hits", "version"],
+        [
+            "",
+            "L2 error, mean of the second half, ρgH",
+            "greatest",
+            "kinetic over potential energy, greatest",
+            "potential energy changed, %",
+            "guard hits",
+            "version",
+        ],
         rows,
     )
 
