@@ -5,14 +5,9 @@
 #include <new>
 #include <utility>
 
+#include "wavetank/node/picture_pace.h"
+
 namespace wavetank {
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
-}  // namespace
 
 SurfaceDrawer::SurfaceDrawer(std::function<void(const WaterSurface&, const ros::Time&)> done) : done_(std::move(done)) {}
 

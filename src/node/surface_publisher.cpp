@@ -1,30 +1,23 @@
 #include "wavetank/node/surface_publisher.h"
 
-#include <algorithm>
 #include <string>
 
 #include "wavetank/common/log.h"
 
 namespace wavetank {
-namespace {
-
-constexpr double most_of_the_time = 0.03;  ///< that drawing may take
-
-}  // namespace
 
 SurfacePublisher::SurfacePublisher(ros::NodeHandle& private_handle, const PublishingCase& publishing, const StampClock& clock)
     : publishing_(publishing),
       clock_(clock),
       mesh_(private_handle.advertise<visualization_msgs::Marker>(SurfaceMessages::mesh_topic, 2)),
       heights_(private_handle.advertise<sensor_msgs::Image>(SurfaceMessages::height_topic, 1)),
+      pace_(publishing.surface_rate),
       drawer_([this](const WaterSurface& surface, const ros::Time& stamp) { publish(surface, stamp); }) {}
 
 bool SurfacePublisher::offer(const Simulation& simulation) {
   if (mesh_.getNumSubscribers() == 0 && heights_.getNumSubscribers() == 0) return false;
-  if (has_failed_ || !drawer_.is_idle()) return false;
-  const double pause = std::max(1.0 / publishing_.surface_rate, drawer_.seconds() / most_of_the_time);
-  if (Clock::now() - last_ < std::chrono::duration<double>(pause)) return false;
-  last_ = Clock::now();
+  if (has_failed_ || !drawer_.is_idle() || !pace_.is_due(drawer_.seconds())) return false;
+  pace_.begin(drawer_.seconds());
   drawer_.draw(simulation, clock_.at(simulation.state().time));
   const std::string failure = drawer_.failure();
   if (!failure.empty()) {

@@ -364,7 +364,7 @@ Section<InstrumentsCase> instruments_section() {
 Section<PublishingCase> rates_section() {
   Section<PublishingCase> section;
   section.key("cloud", &PublishingCase::cloud_rate, number(above_up_to(0, 1e6)), "Hz",
-              "Particle clouds on topics: of wall time, while someone listens.");
+              "Particle clouds on topics, at most: of wall time, while someone listens. Fewer where more would take over 3 % of the time.");
   section.key("cloud_bag", &PublishingCase::cloud_bag_rate, number(above_up_to(0, 1e6)), "Hz",
               "Particle clouds in a bag of `wavetank_run --clouds`: of simulated time.");
   section.key(

@@ -736,6 +736,42 @@ class Server(WithBag):
 
         asyncio.run(talk())
 
+    def test_a_page_that_does_not_take_its_pictures_is_made_none(self):
+        from unittest import mock
+
+        from wavetank.web import server as web
+        from wavetank.web.server import Server
+
+        class Noting(MadeTank):
+            mode, shown = "live", []
+            samples = staticmethod(lambda: [])
+            poses = look_around = forget = staticmethod(lambda: None)
+
+            def show(self, wanted):
+                self.shown.append(wanted)
+
+        async def talk():
+            server, source, stopped = Server("127.0.0.1", 0, 1), Noting(), asyncio.Event()
+            work = asyncio.ensure_future(server.serve(source, stopped))
+            connection = await self.connect(url=server.url)
+            await connection.write_message('{"do": "show", "water": "particles"}')
+            await self.next_of(connection, "answer")
+            for number in range(web.AHEAD + 1):
+                server.hub.publish("particles", b"%d" % number)
+                await asyncio.sleep(0.05)
+            self.assertEqual(source.shown, [{"particles"}])
+            await asyncio.sleep(0.6)
+            self.assertEqual(source.shown, [{"particles"}, set()], "it was sent as many as may be ahead of what it has drawn")
+            await connection.write_message('{"do": "seen"}')
+            await asyncio.sleep(0.3)
+            self.assertEqual(source.shown, [{"particles"}, set(), {"particles"}])
+            connection.close()
+            stopped.set()
+            await work
+
+        with mock.patch.multiple(web, PATIENCE=0.3, LOOK_EVERY=0.1):
+            asyncio.run(talk())
+
     def test_ends_while_a_bag_is_being_read(self):
         code = "import os, signal, sys, time; import wavetank.web.replay as replay\nclass Slow:\n  def __init__(self, *more):\n    os.kill(os.getpid(), signal.SIGTERM); time.sleep(30)\nreplay.Replay = Slow\nfrom wavetank.web import command\nfrom wavetank import program\nsys.exit(program.run('web', command.main, ['any.bag', '--port', '0']))"
         done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=20)

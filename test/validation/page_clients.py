@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What pages cost a tank that runs: usage: page_clients.py WAVETANK_NODE FOLDER [SPACING [SECONDS]]  (0.0183333 m, 15 s)
+"""What pages cost a tank that runs: usage: page_clients.py WAVETANK_NODE FOLDER [SPACING [SECONDS [ROUNDS]]]  (0.0183333 m, 15 s, 3)
 
 A node with config/dam_break_3d.yaml that goes as fast as it can, the server of the page, and windows of so many seconds by turns: without a page; with two
 that show all particles and read whatever comes; with one that asks for them and never reads. Prints steps a second of each, and what they lose."""
@@ -15,7 +15,6 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 PACKAGE = os.path.dirname(os.path.dirname(HERE))
 NAME = "/paged"
-ROUNDS = 3
 KINDS = ["nobody", "two pages", "one that never reads"]
 
 from soak import free_port, median  # noqa: E402
@@ -38,6 +37,7 @@ class Client(threading.Thread):
 
         from tornado.httpclient import HTTPRequest
         from tornado.websocket import websocket_connect
+        from wavetank.web.packets import unpack
 
         request = HTTPRequest(self.url.replace("http", "ws") + "socket", headers={"Origin": self.url[:-1]})
         connection = await websocket_connect(request, max_message_size=1 << 26)
@@ -50,8 +50,8 @@ class Client(threading.Thread):
                 packet = await asyncio.wait_for(connection.read_message(), 0.5)
             except asyncio.TimeoutError:
                 continue
-            kind = json.loads(packet)["kind"] if isinstance(packet, str) else None
-            self.clouds += kind is None
+            kind = json.loads(packet)["kind"] if isinstance(packet, str) else unpack(packet)[0]["kind"]
+            self.clouds += kind == "cloud"
             if kind not in ("answer", "series"):
                 await connection.write_message('{"do": "seen"}')
         connection.close()
@@ -64,19 +64,20 @@ def main():
     program, folder = [os.path.abspath(word) for word in sys.argv[1:3]]
     spacing = float(sys.argv[3]) if len(sys.argv) > 3 else 0.0183333
     seconds = float(sys.argv[4]) if len(sys.argv) > 4 else 15.0
+    rounds = int(sys.argv[5]) if len(sys.argv) > 5 else 3
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     os.environ.update(ROS_MASTER_URI="http://localhost:%d" % free_port(), ROS_HOSTNAME="localhost", ROS_LOG_DIR=folder)
     started = []
     try:
-        return measure(program, folder, spacing, seconds, started)
+        return measure(program, folder, spacing, seconds, rounds, started)
     finally:
         for process in reversed(started):
             process.kill()
             process.wait()
 
 
-def measure(program, folder, spacing, seconds, started):
+def measure(program, folder, spacing, seconds, rounds, started):
     import rosgraph
     import rospy
     from wavetank.msg import SolverStatus
@@ -99,8 +100,8 @@ def measure(program, folder, spacing, seconds, started):
     server = [sys.executable, os.path.join(PACKAGE, "scripts", "web"), "--port", "0", "--tank", NAME]
     started.append(subprocess.Popen(server, stdout=subprocess.PIPE, universal_newlines=True))
     url = started[-1].stdout.readline().split()[0]
-    rates, clouds = {kind: [] for kind in KINDS}, 0
-    for _ in range(ROUNDS):
+    rates, clouds, watched = {kind: [] for kind in KINDS}, 0, 0.0
+    for _ in range(rounds):
         for kind in KINDS:
             clients = [Client(url, True) for _ in range(2)] if kind == "two pages" else [Client(url, False)] if kind != "nobody" else []
             for client in clients:
@@ -114,7 +115,8 @@ def measure(program, folder, spacing, seconds, started):
                 client.ends.set()
                 client.join(5)
                 clouds += client.clouds
-    print("%d particles, %d packets of clouds and drawings came" % (newest[-1][2], clouds))
+                watched += (3.0 + seconds) * client.reads
+    print("%d particles; a page that reads got %.2f clouds a second" % (newest[-1][2], clouds / watched))
     without = median(rates["nobody"])
     for kind in KINDS:
         print("%-22s %s steps/s: %+.1f %%" % (kind, ", ".join("%.2f" % rate for rate in rates[kind]), 100 * (median(rates[kind]) / without - 1)))

@@ -3,8 +3,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include <chrono>
-
+#include "wavetank/node/picture_pace.h"
 #include "wavetank/node/stamps.h"
 #include "wavetank/node/surface_drawer.h"
 #include "wavetank/node/surface_messages.h"
@@ -24,13 +23,12 @@ class SurfacePublisher {
   void restart() { drawer_.drop(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
   void publish(const WaterSurface& surface, const ros::Time& stamp) const;
 
   PublishingCase publishing_;
   const StampClock& clock_;
   ros::Publisher mesh_, heights_;
-  Clock::time_point last_;
+  PicturePace pace_;
   bool has_failed_ = false;
   SurfaceDrawer drawer_;  ///< last: its thread uses all of the above
 };

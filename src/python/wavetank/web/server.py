@@ -7,6 +7,7 @@ import logging
 import os
 import socket
 import threading
+import time
 
 import tornado.httpserver
 import tornado.iostream
@@ -24,6 +25,7 @@ AHEAD = 4  # pictures that a client may have been sent and not yet drawn: what l
 WAITING_REQUESTS = 4  # of a client; while there are more it is not read
 LONGEST_MESSAGE = 65536  # bytes, of a client; a longer one ends its connection
 SAMPLES_EVERY, POSES_EVERY, LOOK_EVERY = 0.1, 0.05, 1.0  # s of wall time
+PATIENCE = 2.0  # s: a page that has had no room for a picture for so long is made none any more, until it has
 FULL, GOING_AWAY = 1013, 1001  # of RFC 6455
 KEPT = ("hello", "drawing", "lines", "status", "silence", "poses")  # kinds whose newest a new client gets, beside the water that it asks for
 WATERS = ("particles", "free_surface", "surface", "spray")  # kinds of which a client wants one alone, and with the surface its spray
@@ -102,11 +104,18 @@ class Hub:
             client.wake.set()
 
     def tell_wanted(self):
-        wanted = {client.water for client in self.clients} - {None}
+        wanted = {client.water for client in self.clients if client.takes_pictures} - {None}
         for name in WATERS:
             if name not in wanted and not (name == "spray" and "surface" in wanted):
                 self.newest.pop(name, None)
         self.wanted_changed(wanted)
+
+    def look_who_reads(self):
+        """The tank makes no clouds for pages that do not take what they were sent."""
+        now = time.monotonic()
+        changed = [client for client in self.clients if client.has_changed(now)]
+        if changed:
+            self.tell_wanted()
 
 
 class Client(tornado.websocket.WebSocketHandler):
@@ -116,6 +125,7 @@ class Client(tornado.websocket.WebSocketHandler):
         self.server, self.hub, self.source = server, server.hub, server.source
         self.mailbox, self.wake, self.water, self.sender = Mailbox(), asyncio.Event(), None, None
         self.busy, self.requests, self.ahead = asyncio.Lock(), 0, 0
+        self.is_writing, self.takes_pictures, self.had_room = False, True, time.monotonic()
 
     def check_origin(self, origin):
         return origin_is_ours(origin, self.request.host, names_for(self.request, self.server.names))
@@ -149,6 +159,13 @@ class Client(tornado.websocket.WebSocketHandler):
     def wants(self, kind):
         return kind in KEPT or kind == self.water or (kind == "spray" and self.water == "surface")
 
+    def has_changed(self, now):
+        """Whether it takes pictures, which it did not, or the other way round. To be asked about once a second."""
+        if self.ahead < AHEAD and not self.is_writing:
+            self.had_room = now
+        before, self.takes_pictures = self.takes_pictures, now - self.had_room <= PATIENCE
+        return self.takes_pictures != before
+
     async def send(self):
         """All that waits; a picture is chosen when the one before has left, and few are ahead of what is drawn."""
         try:
@@ -160,7 +177,9 @@ class Client(tornado.websocket.WebSocketHandler):
                     if packet is None:
                         break
                     self.ahead += is_picture
+                    self.is_writing = True
                     await self.write_message(packet, binary=isinstance(packet, bytes))
+                    self.is_writing = False
         except (tornado.websocket.WebSocketClosedError, tornado.iostream.StreamClosedError):
             pass
 
@@ -177,6 +196,8 @@ class Client(tornado.websocket.WebSocketHandler):
             return
         if request["do"] == "seen":
             self.ahead = max(self.ahead - 1, 0)
+            if not self.takes_pictures:
+                self.hub.look_who_reads()
             self.wake.set()
             return
         self.requests += 1
@@ -377,6 +398,7 @@ class Server:
 
     async def _look(self):
         while True:
+            self.hub.look_who_reads()
             await in_thread(self.source.look_around)
             await asyncio.sleep(LOOK_EVERY)
 
