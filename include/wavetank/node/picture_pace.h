@@ -5,8 +5,8 @@
 
 namespace wavetank {
 
-/// When the next picture of the water is due: at most at a rate of wall time, and so seldom that pictures take no more than 3 % of the time,
-/// since what makes them has the processor in common with the solver.
+/// When the next picture of the water is due: at most at a rate of wall time, and so seldom that pictures take no more than 3 % of the
+/// time, since what makes them has the processor in common with the solver.
 class PicturePace {
  public:
   /// `rate`: Hz, greater than 0.
