@@ -66,7 +66,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
   a.u = own_values(state + FIELD_U * stride, first);
   a.v = own_values(state + FIELD_V * stride, first);
   a.w = own_values(state + FIELD_W * stride, first);
-  a.own = scheme_own(&a.near, gradient, first);
+  a.own = scheme_own(p, &a.near, gradient, first);
 #if EXCHANGES_MASS
   a.own_shepard = own_values(gradient + GRADIENT_SHEPARD * stride, first);
 #endif

@@ -300,7 +300,7 @@ INLINE void start_sums(sweep_t* a, __constant const parameters_t* p, int first, 
   a->v = own_values(state + FIELD_V * stride, first);
   a->w = own_values(state + FIELD_W * stride, first);
   a->gradient = gradient;
-  a->own = scheme_own(&a->near, gradient, first);
+  a->own = scheme_own(p, &a->near, gradient, first);
 #if EDDIES
   a->eddies = own_values(gradient + GRADIENT_EDDIES * stride, first);
 #endif

@@ -1,7 +1,10 @@
 // The Riemann problem between a particle (left) and its neighbour (right) along the line between them, acoustic, with values at the midpoint by MUSCL: each
 // side's own renormalised gradient, limited by minmod against the difference of the two. Of velocities what is along that line is reconstructed and limited,
-// whatever the axes are. Linear fields have no jump, so hydrostatics is free of dissipation. For schemes; [S] of docs/numerics.md leaves the solver and the
-// limiter's arguments open.
+// whatever the axes are. Linear fields have no jump. Of compressions what hydrostatics explains is not limited: in disordered water at rest the limiter would
+// take of each difference more often than add to it, and so carry compression upwards and sink the water. For schemes; [S] of docs/numerics.md leaves the
+// solver and the limiter's arguments open.
+#include "hydrostatics.cl"
+
 EQUATION_OF_STATE(tile, fluid)
 
 typedef struct {
@@ -10,6 +13,7 @@ typedef struct {
   tile pressure;  // with the acoustic damper's
 #endif
   tile_vector_t slope;  // its gradient
+  hydrostatics_t hydrostatics;
 #if GRADIENT_OF_VELOCITY
   tile_vector_t slope_u, slope_v, slope_w;
 #else
@@ -28,13 +32,14 @@ INLINE tile damper_of(__constant const parameters_t* p, tile pressure, tile comp
 }
 #endif
 
-INLINE scheme_own_t scheme_own(const neighbours_t* n, __global const real* gradient, int first) {
+INLINE scheme_own_t scheme_own(__constant const parameters_t* p, const neighbours_t* n, __global const real* gradient, int first) {
   scheme_own_t own;
   own.compression = own_values(n->state + FIELD_COMPRESSION * n->stride, first);
 #if ACOUSTIC_DAMPER
   own.pressure = own_values(n->state + FIELD_PRESSURE * n->stride, first);
 #endif
   own.slope = own_gradient(n, gradient, GRADIENT_COMPRESSION, first);
+  own.hydrostatics = hydrostatics_of(p, n, first);
 #if GRADIENT_OF_VELOCITY
   own.slope_u = own_gradient(n, gradient, GRADIENT_U, first);
   own.slope_v = own_gradient(n, gradient, GRADIENT_U + 3, first);
@@ -108,9 +113,10 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
   own_change += own->slope.y * pair->ry;
   near_change += slope.y * pair->ry;
 #endif
-  const limits_t most = limits_of(difference), most_approach = limits_of(pair->approach);
-  const tile s_left = own->compression + R(0.5) * minmod(&most, own_change);
-  const tile s_right = near - R(0.5) * minmod(&most, near_change);
+  const tile explained = explained_difference(&own->hydrostatics, pair);
+  const limits_t most = limits_of(difference - explained), most_approach = limits_of(pair->approach);
+  const tile s_left = own->compression + R(0.5) * (explained + minmod(&most, own_change - explained));
+  const tile s_right = near - R(0.5) * (explained + minmod(&most, near_change - explained));
   star_t star;
   star.left = R(0.5) * minmod(&most_approach, own_stretch(own, pair));
   star.right = pair->approach - R(0.5) * minmod(&most_approach, neighbour_stretch(n, gradient, pair));
