@@ -112,7 +112,7 @@ def main():
     if len(sys.argv) != 5 or sys.argv[4] not in ("at_rest", "dam_break"):
         print(__doc__, file=sys.stderr)
         return 2
-    programs, root, folder = sys.argv[1:4]
+    programs, root, folder = [os.path.abspath(word) for word in sys.argv[1:4]]
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)  # where a run that is stopped leaves its snapshot
     {"at_rest": at_rest, "dam_break": dam_break}[sys.argv[4]](programs, root, folder)
