@@ -375,14 +375,6 @@ void SphSolver<Real>::forget_gradients() {
 }
 
 template <class Real>
-void SphSolver<Real>::list_blocks() {
-  if (listed_blocks_ == 0) return;
-  reserve_blocks();
-  over_own(kernels_.gradients[Slot::now]);
-  blocks_are_of_now_ = true;
-}
-
-template <class Real>
 void SphSolver<Real>::reserve_blocks() {
   const std::size_t wanted = listed_blocks_ == 0 ? 0 : static_cast<std::size_t>(tiles()) * (listed_blocks_ + 2);
   if (blocks_.size() < wanted) blocks_ = compute::Buffer<int>(device_, wanted + wanted / 8);

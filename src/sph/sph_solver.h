@@ -108,6 +108,7 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
   /// Without the other parts, which all have what they need.
   void sort_alone();
+  void restore_gradients(const std::vector<std::vector<Real>>& gradients);
   void upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id);
   int gradient_count() const { return static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_)); }
   compute::Arguments arguments() const;
@@ -176,8 +177,6 @@ class SphSolver final : public Solver, private StepEngine {
   void find_gradients(Slot state);
   /// They are of another state, or order, of the particles.
   void forget_gradients();
-  /// As finding gradients does, which are found for nothing.
-  void list_blocks();
   /// Tiles that sweeps go over.
   int tiles() const { return part_ ? part_->tiles() : (count_ + tiling_.particles.own - 1) / tiling_.particles.own; }
   /// Room for the blocks of candidates of each, where gradients list them.

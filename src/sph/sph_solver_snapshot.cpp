@@ -146,15 +146,21 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   else
     sort_all();
   upload_by_id(rates_, fields_.count(ParticleArray::rates), rates);
-  if (!gradients.empty()) {
-    std::vector<Real> all(gradient_.size(), Real(0));
-    for (std::size_t k = 0; k < gradients.size(); ++k)
-      std::copy(gradients[k].begin(), gradients[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * stride_));
-    list_blocks();
-    upload_by_id(gradient_, gradient_count(), all);
-    gradients_are_held_ = true;
-  }
+  if (holds_gradients_) restore_gradients(gradients);
   masses_let_in_.clear();
+}
+
+/// By component, in the order of ids. An older snapshot has none: then they are those of its state.
+template <class Real>
+void SphSolver<Real>::restore_gradients(const std::vector<std::vector<Real>>& gradients) {
+  reserve_blocks();
+  over_own(kernels_.gradients[Slot::now]);
+  blocks_are_of_now_ = gradients_are_held_ = true;
+  if (gradients.empty()) return;
+  std::vector<Real> all(gradient_.size(), Real(0));
+  for (std::size_t k = 0; k < gradients.size(); ++k)
+    std::copy(gradients[k].begin(), gradients[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * stride_));
+  upload_by_id(gradient_, gradient_count(), all);
 }
 
 template <class Real>
@@ -220,9 +226,11 @@ void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vec
 
 template std::vector<char> SphSolver<float>::save() const;
 template void SphSolver<float>::restore(const std::vector<char>&);
+template void SphSolver<float>::restore_gradients(const std::vector<std::vector<float>>&);
 template std::vector<char> SphSolver<float>::joined(const std::vector<std::vector<char>>&) const;
 template std::vector<char> SphSolver<double>::joined(const std::vector<std::vector<char>>&) const;
 template std::vector<char> SphSolver<double>::save() const;
 template void SphSolver<double>::restore(const std::vector<char>&);
+template void SphSolver<double>::restore_gradients(const std::vector<std::vector<double>>&);
 
 }  // namespace wavetank
