@@ -4,9 +4,24 @@
 
 EQUATION_OF_STATE(real, particle)
 
+#if defined(RATE_VOLUME) && CLAMP_PRESSURE
+// Water that is drawn apart feels nothing of it, and what opens in it is no room of its own. Where masses evolve too, a particle in a hole would else keep the
+// hole's volume while its mass flows off, until a pressure beside it throws what is left away at any speed. Its mass stays as it is.
+#define LEAST_COMPRESSION R(-0.1)
+INLINE void close_holes(__global real* state, long stride, int i) {
+  const real compression = state[FIELD_COMPRESSION * stride + i];
+  if (!(compression < LEAST_COMPRESSION)) return;
+  state[FIELD_VOLUME * stride + i] *= (R(1.0) + compression) / (R(1.0) + LEAST_COMPRESSION);
+  state[FIELD_COMPRESSION * stride + i] = LEAST_COMPRESSION;
+}
+#endif
+
 // What follows from the fields that evolve, and what the neighbour loop needs beside them. A particle keeps its mass, or else, where the scheme has a rate
 // of the volume, what its compression and volume make of it. `damper`: of the pressure, that of the acoustic damper, Pa.
 INLINE void derive(__constant const parameters_t* p, __global real* state, long stride, int i, real mass, real damper) {
+#if defined(RATE_VOLUME) && CLAMP_PRESSURE
+  close_holes(state, stride, i);
+#endif
   const real compression = state[FIELD_COMPRESSION * stride + i];
 #if ACOUSTIC_DAMPER
   const real pressure = particle_pressure(p, compression) + damper;
