@@ -136,7 +136,7 @@ typedef struct {
   tile nothing;
 } scheme_own_t;
 
-INLINE scheme_own_t scheme_own(const neighbours_t* n, __global const real* gradient, int first) {
+INLINE scheme_own_t scheme_own(__constant const parameters_t* p, const neighbours_t* n, __global const real* gradient, int first) {
   const scheme_own_t own = {(tile)(R(0.0))};
   return own;
 }

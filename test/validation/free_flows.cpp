@@ -38,6 +38,8 @@ class Flow {
   virtual double pressure(const Vector3d& place) const = 0;  ///< Pa, at the start
   virtual double greatest_speed() const = 0;
   virtual bool is_periodic() const = 0;
+  virtual double domain() const { return 1; }  ///< m: its side, whose least corner is at 0
+  virtual double origin() const { return 0; }  ///< m: of x and z in what is written
 
   int n;
   double drift, spacing, reynolds;
@@ -56,18 +58,25 @@ class TaylorGreen final : public Flow {
 
 class TurningSquare final : public Flow {
  public:
-  using Flow::Flow;
-  Vector3d velocity(const Vector3d& x) const override { return {x.z() - 2, 0, -(x.x() - 2)}; }
+  /// In a domain that its corners, which fly on as they were, do not leave.
+  explicit TurningSquare(const Words& words)
+      : Flow(words), domain_(std::max(4.0, std::ceil(2 * (std::sqrt(0.5) * std::hypot(1, number(words, "end", 0.4)) + 0.05)))) {}
+  Vector3d velocity(const Vector3d& x) const override { return {x.z() - origin(), 0, -(x.x() - origin())}; }
   double pressure(const Vector3d& x) const override {
     double sum = 0;
     for (int m = 1; m < 60; m += 2)
       for (int k = 1; k < 60; k += 2)
-        sum -= 32 / (m * k * pi * pi) / ((m * pi) * (m * pi) + (k * pi) * (k * pi)) * std::sin(m * pi * (x.x() - 1.5)) *
-               std::sin(k * pi * (x.z() - 1.5));
+        sum -= 32 / (m * k * pi * pi) / ((m * pi) * (m * pi) + (k * pi) * (k * pi)) * std::sin(m * pi * (x.x() - origin() + 0.5)) *
+               std::sin(k * pi * (x.z() - origin() + 0.5));
     return 1000 * sum;
   }
   double greatest_speed() const override { return std::sqrt(0.5); }
   bool is_periodic() const override { return false; }
+  double domain() const override { return domain_; }
+  double origin() const override { return 0.5 * domain_; }
+
+ private:
+  double domain_;
 };
 
 /// Pairs of particles closer than half a spacing, in a periodic square of side 1 or without ends.
@@ -95,20 +104,20 @@ int close_pairs(const FluidState& fluid, double spacing, bool periodic) {
 }
 
 /// A table of places, m, and pressures over ρU² (or ρω²L²), a particle a line.
-void write_field(const std::string& name, double time, const FluidState& fluid) {
+void write_field(const std::string& name, double time, double origin, const FluidState& fluid) {
   char path[512];
   std::snprintf(path, sizeof path, "%s_%.2f.csv", name.c_str(), time);
   std::FILE* file = std::fopen(path, "w");
   if (file == nullptr) throw Error("cannot write " + std::string(path));
   std::fprintf(file, "x,z,pressure\n");
   for (std::size_t i = 0; i < fluid.id.size(); ++i)
-    std::fprintf(file, "%.5f,%.5f,%.5f\n", fluid.position[i].x(), fluid.position[i].z(), fluid.pressure[i] / 1000);
+    std::fprintf(file, "%.5f,%.5f,%.5f\n", fluid.position[i].x() - origin, fluid.position[i].z() - origin, fluid.pressure[i] / 1000);
   if (std::fclose(file) != 0) throw Error("cannot write " + std::string(path));
 }
 
 template <class Real>
 void run(const Flow& flow, const Words& words, Precision precision) {
-  const double side = flow.is_periodic() ? 1 : 4, sound_speed = number(words, "sound", 10) * flow.greatest_speed();
+  const double side = flow.domain(), sound_speed = number(words, "sound", 10) * flow.greatest_speed();
   Case scene = box_case(Vector3d(side, 0, side), side, flow.spacing);
   scene.gravity = Vector3d::Zero();
   scene.tank.periodic = {flow.is_periodic(), false, flow.is_periodic()};
@@ -216,7 +225,7 @@ void run(const Flow& flow, const Words& words, Precision precision) {
                   volume / start_volume - 1, mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
                   solver->evaluate(*centre)[0].pressure / 1000, worst);
       std::fflush(stdout);
-      if (!fields.empty() && row % field_rows == 0) write_field(fields, k * step, fluid);
+      if (!fields.empty() && row % field_rows == 0) write_field(fields, k * step, flow.origin(), fluid);
       ++row;
       shift_sum = 0;
       shift_count = 0;

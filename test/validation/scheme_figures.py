@@ -229,11 +229,12 @@ def square_fields(runs, sides):
         for axis in row:
             axis.axis("off")
         for (time, particles), axis in zip(field, row):
-            drawn = axis.scatter(particles["x"] - 2, particles["z"] - 2, c=particles["pressure"], s=0.8, cmap="jet", vmin=-0.15, vmax=0, linewidths=0)
+            drawn = axis.scatter(particles["x"], particles["z"], c=particles["pressure"], s=0.8, cmap="jet", vmin=-0.15, vmax=0, linewidths=0)
             axis.set_title("%s, tω = %.1f" % (scheme, time), fontsize=9)
             axis.set_aspect("equal")
-            axis.set_xlim(-1.3, 1.3)
-            axis.set_ylim(-1.3, 1.3)
+            reach = 0.75 * math.hypot(1, time)
+            axis.set_xlim(-reach, reach)
+            axis.set_ylim(-reach, reach)
     figure.colorbar(drawn, ax=axes, label="p/ρω²L²", shrink=0.5)
     figure.savefig(os.path.join(runs.folder, "square_fields.png"), dpi=110, bbox_inches="tight")
 
