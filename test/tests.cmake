@@ -131,7 +131,7 @@ endif()
 # Programs as a user runs them: Python's unittest against wavetank_run and plot_probes, rostest against a live node.
 if(TARGET wavetank_node)
   find_package(rostest REQUIRED)
-  foreach(name wavetank_run_test reliability_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_test pages_test package_test)
+  foreach(name wavetank_run_test reliability_test plot_probes_test picture_tools_test wave_tools_test bag_tools_test sweep_test hydrodynamics_test readme_test web_parts_test web_test pages_test package_test)
     add_test(NAME node_${name} COMMAND ${CATKIN_ENV} ${CMAKE_COMMAND} -E env WAVETANK_RUN=$<TARGET_FILE:wavetank_run>
       ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test/node/${name}.py -v)
   endforeach()
