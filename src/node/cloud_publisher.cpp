@@ -2,6 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
+#include "wavetank/common/stopwatch.h"
+
 namespace wavetank {
 namespace {
 
@@ -36,11 +38,14 @@ bool CloudPublisher::offer(const Simulation& simulation) {
   const bool wants_surface = surface_.getNumSubscribers() > 0;
   if (!wants_all && !wants_surface) return false;
   pace_.begin(seconds);
-  const auto began = std::chrono::steady_clock::now();
   Clouds clouds;
-  if (wants_all) clouds.all = simulation.particles();
-  if (wants_surface) clouds.surface = wants_all ? surface_of(*clouds.all) : simulation.free_surface();
-  taking_seconds_ = seconds_since(began);
+  Stopwatch taking;
+  {
+    const Stopwatch::Lap lap(taking);
+    if (wants_all) clouds.all = simulation.particles();
+    if (wants_surface) clouds.surface = wants_all ? surface_of(*clouds.all) : simulation.free_surface();
+  }
+  taking_seconds_ = taking.seconds();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     latest_ = std::move(clouds);
@@ -64,10 +69,13 @@ void CloudPublisher::run() {
       clouds = std::move(*latest_);
       latest_.reset();
     }
-    const auto began = std::chrono::steady_clock::now();
-    publish(all_, clouds.all, CloudFields::all);
-    publish(surface_, clouds.surface, CloudFields::surface);
-    publishing_seconds_ = seconds_since(began);
+    Stopwatch publishing;
+    {
+      const Stopwatch::Lap lap(publishing);
+      publish(all_, clouds.all, CloudFields::all);
+      publish(surface_, clouds.surface, CloudFields::surface);
+    }
+    publishing_seconds_ = publishing.seconds();
   }
 }
 

@@ -1,11 +1,10 @@
 #include "wavetank/node/surface_drawer.h"
 
-#include <chrono>
 #include <exception>
 #include <new>
 #include <utility>
 
-#include "wavetank/node/picture_pace.h"
+#include "wavetank/common/stopwatch.h"
 
 namespace wavetank {
 
@@ -23,11 +22,15 @@ void SurfaceDrawer::draw(const Simulation& simulation, const ros::Time& stamp) {
 
 void SurfaceDrawer::look_at(const Simulation& simulation, const ros::Time& stamp) {
   if (!finder_) finder_ = std::make_unique<SurfaceFinder>(simulation);
-  const auto began = std::chrono::steady_clock::now();
-  WaterField field = finder_->look_at(simulation);
-  looking_seconds_ = seconds_since(began);
+  Stopwatch looking;
+  std::shared_ptr<WaterField> taken;
+  {
+    const Stopwatch::Lap lap(looking);
+    taken = std::make_shared<WaterField>(finder_->look_at(simulation));
+  }
+  looking_seconds_ = looking.seconds();
   is_dropped_ = false;
-  work_.hand_over([this, taken = std::make_shared<WaterField>(std::move(field)), stamp] { find(*taken, stamp); });
+  work_.hand_over([this, taken, stamp] { find(*taken, stamp); });
 }
 
 /// While what failed is caught.
@@ -53,14 +56,15 @@ void SurfaceDrawer::drop() { is_dropped_ = true; }
 
 /// In the drawer's thread.
 void SurfaceDrawer::find(const WaterField& field, const ros::Time& stamp) {
-  const auto began = std::chrono::steady_clock::now();
+  Stopwatch finding;
   try {
+    const Stopwatch::Lap lap(finding);
     const WaterSurface surface = finder_->find(field);
     if (!is_dropped_) done_(surface, stamp);
   } catch (const std::exception&) {
     give_up();
   }
-  finding_seconds_ = seconds_since(began);
+  finding_seconds_ = finding.seconds();
 }
 
 }  // namespace wavetank

@@ -108,7 +108,14 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
   /// Without the other parts, which all have what they need.
   void sort_alone();
-  void restore_gradients(const std::vector<std::vector<Real>>& gradients);
+  enum class SavedArray { state, rates, gradients };
+  struct SavedComponent {
+    std::string block;
+    SavedArray array;
+    std::size_t place;  ///< in the array
+  };
+  std::vector<SavedComponent> saved_components(bool gradients) const;
+  void find_own_gradients();
   void upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id);
   int gradient_count() const { return static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_)); }
   compute::Arguments arguments() const;

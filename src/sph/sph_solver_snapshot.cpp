@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -17,7 +18,8 @@ constexpr const char* next_id_block = "particles: next id";
 constexpr const char* step_block = "step: next, greatest speed, greatest acceleration";
 constexpr const char* lists_block = "walls: poses of the lists";
 constexpr const char* guard_block = "guard: impulses";
-constexpr const char* gradients_block = "particles: gradients";  // one component after the other
+
+std::string gradient_block(int component) { return "particles: gradient " + std::to_string(component); }
 
 std::string block_of(const FieldRow& row, const std::string& component) {
   return (row.array == ParticleArray::state ? "particles: " : "particles: rate of ") + component;
@@ -34,9 +36,28 @@ std::vector<int> SphSolver<Real>::order_by_id(const std::vector<std::uint32_t>& 
   return order;
 }
 
+/// What a snapshot has a block of, a component each.
+template <class Real>
+auto SphSolver<Real>::saved_components(bool gradients) const -> std::vector<SavedComponent> {
+  std::vector<SavedComponent> saved;
+  for (const FieldRow& row : fields_.rows()) {
+    if (!row.is_saved) continue;
+    for (const std::string& component : row.components)
+      saved.push_back({block_of(row, component), row.array == ParticleArray::state ? SavedArray::state : SavedArray::rates,
+                       static_cast<std::size_t>(fields_.at(row.array, component))});
+  }
+  for (int k = 0; gradients && k < gradient_count(); ++k)
+    saved.push_back({gradient_block(k), SavedArray::gradients, static_cast<std::size_t>(k)});
+  return saved;
+}
+
 template <class Real>
 std::vector<char> SphSolver<Real>::save() const {
-  const std::vector<Real> state = state_.download(), rates = rates_.download();
+  const std::map<SavedArray, std::vector<Real>> from{
+      {SavedArray::state, state_.download()},
+      {SavedArray::rates, rates_.download()},
+      {SavedArray::gradients, gradients_are_held_ ? gradient_.download() : std::vector<Real>()}};
+  const std::vector<Real>& state = from.at(SavedArray::state);
   const std::vector<std::uint32_t> id = id_.download(count_);
   std::vector<int> order = order_by_id(id);
   if (part_)
@@ -49,21 +70,8 @@ std::vector<char> SphSolver<Real>::save() const {
   SnapshotBlocks blocks;
   blocks.put(id_block, in_order([&](int i) { return id[i]; }));
   blocks.put(next_id_block, std::vector<double>{static_cast<double>(next_id_)});
-  for (const FieldRow& row : fields_.rows()) {
-    if (!row.is_saved) continue;
-    const std::vector<Real>& from = row.array == ParticleArray::state ? state : rates;
-    for (const std::string& component : row.components)
-      blocks.put(block_of(row, component), in_order([&](int i) { return from[index_of(component.c_str(), i, row.array)]; }));
-  }
-  if (gradients_are_held_) {
-    const std::vector<Real> gradients = gradient_.download();
-    std::vector<Real> all;
-    for (int k = 0; k < gradient_count(); ++k) {
-      const std::vector<Real> component = in_order([&](int i) { return gradients[static_cast<std::size_t>(k) * stride_ + i]; });
-      all.insert(all.end(), component.begin(), component.end());
-    }
-    blocks.put(gradients_block, all);
-  }
+  for (const SavedComponent& saved : saved_components(gradients_are_held_))
+    blocks.put(saved.block, in_order([&](int i) { return from.at(saved.array)[saved.place * static_cast<std::size_t>(stride_) + i]; }));
   blocks.put(step_block, std::vector<double>{step_, greatest_speed_, greatest_acceleration_});
   blocks.put(lists_block, moving_walls_ ? moving_walls_->listed() : std::vector<double>());
   blocks.put(guard_block, guarded_.values());
@@ -83,21 +91,12 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const bool counts = next_id >= 0 && next_id <= most_ids;
   if (!ascending || !counts || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
     throw Error("the snapshot's particles are not those of this case: their ids are others.");
-  std::vector<std::pair<const FieldRow*, std::vector<std::vector<Real>>>> fields;
-  for (const FieldRow& row : fields_.rows()) {
-    if (!row.is_saved) continue;
-    fields.push_back({&row, {}});
-    for (const std::string& component : row.components) {
-      names.push_back(block_of(row, component));
-      fields.back().second.push_back(blocks.get<Real>(names.back(), id.size()));
-    }
-  }
-  std::vector<std::vector<Real>> gradients;
-  if (holds_gradients_ && blocks.has(gradients_block)) {
-    names.emplace_back(gradients_block);
-    const std::vector<Real> all = blocks.get<Real>(gradients_block, gradient_count() * id.size());
-    for (auto from = all.begin(); from != all.end(); from += static_cast<std::ptrdiff_t>(id.size()))
-      gradients.emplace_back(from, from + static_cast<std::ptrdiff_t>(id.size()));
+  const bool with_gradients = holds_gradients_ && blocks.has(gradient_block(0));
+  const std::vector<SavedComponent> components = saved_components(with_gradients);
+  std::vector<std::vector<Real>> values;  // of each
+  for (const SavedComponent& saved : components) {
+    names.push_back(saved.block);
+    values.push_back(blocks.get<Real>(saved.block, id.size()));
   }
   const std::vector<double> step = blocks.get<double>(step_block, 3);
   const std::vector<double> listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
@@ -106,16 +105,14 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   if (part_) {
     const int axis = part_->parting().axis;
     const std::vector<int> mine = in_part(blocks.get<Real>(std::string("particles: ") + "xyz"[axis], id.size()));
-    const auto pick = [&](auto& values) {
-      auto picked = values;
+    const auto pick = [&](auto& all) {
+      auto picked = all;
       picked.resize(mine.size());
-      for (std::size_t k = 0; k < mine.size(); ++k) picked[k] = values[mine[k]];
-      values = std::move(picked);
+      for (std::size_t k = 0; k < mine.size(); ++k) picked[k] = all[mine[k]];
+      all = std::move(picked);
     };
     pick(id);
-    for (auto& field : fields)
-      for (std::vector<Real>& values : field.second) pick(values);
-    for (std::vector<Real>& values : gradients) pick(values);
+    for (std::vector<Real>& of_component : values) pick(of_component);
   }
 
   reserve(std::max(static_cast<int>(id.size()), 1));
@@ -129,12 +126,13 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   greatest_speed_ = step[1];
   greatest_acceleration_ = step[2];
   report_.upload({static_cast<Real>(step_)});  // its first value, which the next step reads
-  std::vector<Real> state(state_.size(), Real(0)), rates(rates_.size(), Real(0));
-  for (const auto& [row, components] : fields)
-    for (std::size_t k = 0; k < components.size(); ++k)
-      std::copy(components[k].begin(), components[k].end(),
-                (row->array == ParticleArray::state ? state : rates).begin() +
-                    static_cast<std::ptrdiff_t>(index_of(row->components[k].c_str(), 0, row->array)));
+  std::map<SavedArray, std::vector<Real>> arrays{{SavedArray::state, std::vector<Real>(state_.size(), Real(0))},
+                                                 {SavedArray::rates, std::vector<Real>(rates_.size(), Real(0))},
+                                                 {SavedArray::gradients, std::vector<Real>(gradient_.size(), Real(0))}};
+  for (std::size_t k = 0; k < components.size(); ++k)
+    std::copy(values[k].begin(), values[k].end(),
+              arrays[components[k].array].begin() + static_cast<std::ptrdiff_t>(components[k].place * static_cast<std::size_t>(stride_)));
+  std::vector<Real>& state = arrays[SavedArray::state];
   if (part_) std::fill_n(component(state, "own"), count_, Real(1));  // as if all had just come
   // what lies beyond the particles may be left from a run that has gone wrong
   half_.fill_zero();
@@ -145,22 +143,10 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
     sort_alone();
   else
     sort_all();
-  upload_by_id(rates_, fields_.count(ParticleArray::rates), rates);
-  if (holds_gradients_) restore_gradients(gradients);
+  upload_by_id(rates_, fields_.count(ParticleArray::rates), arrays[SavedArray::rates]);
+  if (holds_gradients_) find_own_gradients();  // of a snapshot without them; of another they are listed by it
+  if (with_gradients) upload_by_id(gradient_, gradient_count(), arrays[SavedArray::gradients]);
   masses_let_in_.clear();
-}
-
-/// By component, in the order of ids. An older snapshot has none: then they are those of its state.
-template <class Real>
-void SphSolver<Real>::restore_gradients(const std::vector<std::vector<Real>>& gradients) {
-  reserve_blocks();
-  over_own(kernels_.gradients[Slot::now]);
-  blocks_are_of_now_ = gradients_are_held_ = true;
-  if (gradients.empty()) return;
-  std::vector<Real> all(gradient_.size(), Real(0));
-  for (std::size_t k = 0; k < gradients.size(); ++k)
-    std::copy(gradients[k].begin(), gradients[k].end(), all.begin() + static_cast<std::ptrdiff_t>(k * stride_));
-  upload_by_id(gradient_, gradient_count(), all);
 }
 
 template <class Real>
@@ -182,32 +168,13 @@ std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& 
   };
   SnapshotBlocks blocks;
   blocks.put(id_block, in_order(ids));
-  for (const FieldRow& row : fields_.rows()) {
-    if (!row.is_saved) continue;
-    for (const std::string& component : row.components) {
-      std::vector<std::vector<Real>> values;
-      for (std::size_t part = 0; part < parts.size(); ++part)
-        values.push_back(given[part].get<Real>(block_of(row, component), ids[part].size()));
-      std::vector<Real> all = in_order(values);
-      // those of a scheme whose steps do not begin with them are in the order of before the sort
-      if (row.array == ParticleArray::rates && case_.numerics.integrator != Integrator::symplectic)
-        std::fill(all.begin(), all.end(), Real(0));
-      blocks.put(block_of(row, component), all);
-    }
-  }
-  if (holds_gradients_ && given[0].has(gradients_block)) {
-    std::vector<std::vector<std::vector<Real>>> components(gradient_count());
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      const std::vector<Real> all = given[part].get<Real>(gradients_block, gradient_count() * ids[part].size());
-      const auto count = static_cast<std::ptrdiff_t>(ids[part].size());
-      for (int k = 0; k < gradient_count(); ++k) components[k].emplace_back(all.begin() + k * count, all.begin() + (k + 1) * count);
-    }
-    std::vector<Real> all;
-    for (const auto& values : components) {
-      const std::vector<Real> component = in_order(values);
-      all.insert(all.end(), component.begin(), component.end());
-    }
-    blocks.put(gradients_block, all);
+  for (const SavedComponent& saved : saved_components(holds_gradients_ && given[0].has(gradient_block(0)))) {
+    std::vector<std::vector<Real>> values;
+    for (std::size_t part = 0; part < parts.size(); ++part) values.push_back(given[part].get<Real>(saved.block, ids[part].size()));
+    std::vector<Real> all = in_order(values);
+    // those of a scheme whose steps do not begin with them are in the order of before the sort
+    if (saved.array == SavedArray::rates && case_.numerics.integrator != Integrator::symplectic) std::fill(all.begin(), all.end(), Real(0));
+    blocks.put(saved.block, all);
   }
   for (const char* of_all : {next_id_block, step_block, lists_block, guard_block}) blocks.put(of_all, given[0].get<double>(of_all));
   return blocks.bytes();
@@ -226,11 +193,9 @@ void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vec
 
 template std::vector<char> SphSolver<float>::save() const;
 template void SphSolver<float>::restore(const std::vector<char>&);
-template void SphSolver<float>::restore_gradients(const std::vector<std::vector<float>>&);
 template std::vector<char> SphSolver<float>::joined(const std::vector<std::vector<char>>&) const;
 template std::vector<char> SphSolver<double>::joined(const std::vector<std::vector<char>>&) const;
 template std::vector<char> SphSolver<double>::save() const;
 template void SphSolver<double>::restore(const std::vector<char>&);
-template void SphSolver<double>::restore_gradients(const std::vector<std::vector<double>>&);
 
 }  // namespace wavetank

@@ -13,9 +13,9 @@
 namespace wavetank {
 namespace {
 
-constexpr double parallel = 1e-6;       // of a cosine, and of a sine
-constexpr double flat_distance = 1e-3;  // of the spacing: planes nearer together are one
-constexpr double flush = 0.25;          // of the spacing: a gap whose edge is so near to another plane reaches up to that
+constexpr double parallel_within = 1e-6;  // of a cosine, and of a sine
+constexpr double flat_distance = 1e-3;    // of the spacing: planes nearer together are one
+constexpr double flush = 0.25;            // of the spacing: a gap whose edge is so near to another plane reaches up to that
 
 /// One thing that makes an image: a mirror or a shift by a period.
 struct Generator {
@@ -68,7 +68,7 @@ void add_gap(const TankPlane& plane, const Opening& opening, const std::vector<T
   PlaneGap gap;
   gap.plane = plane;
   const double cosine = plane.normal.dot(opening.normal);
-  if (cosine > 1.0 - parallel && std::abs(distance_from(plane, opening.centre)) < 10 * flat_distance * spacing) {
+  if (cosine > 1.0 - parallel_within && std::abs(distance_from(plane, opening.centre)) < 10 * flat_distance * spacing) {
     gap.centre = opening.centre;
     if (opening.shape == Opening::Shape::disc) {
       gap.radius = 0.5 * opening.width;
@@ -76,14 +76,14 @@ void add_gap(const TankPlane& plane, const Opening& opening, const std::vector<T
       for (TankPlane side : sides_of(opening)) {
         const Vector3d at = -side.offset * side.normal + (opening.centre - side.normal.dot(opening.centre) * side.normal);
         const auto other = std::find_if(others.begin(), others.end(), [&](const TankPlane& candidate) {
-          return candidate.normal.dot(side.normal) < -1.0 + parallel && std::abs(distance_from(candidate, at)) < flush * spacing;
+          return candidate.normal.dot(side.normal) < -1.0 + parallel_within && std::abs(distance_from(candidate, at)) < flush * spacing;
         });
         if (other != others.end()) side.offset -= 2 * flush * spacing;  // nothing before the other plane is near that edge
         if (other == others.end() || other < others.begin() + static_cast<std::ptrdiff_t>(own)) gap.edges.push_back(side);
       }
     }
     gaps.push_back(gap);
-  } else if (std::abs(cosine) > parallel && std::abs(cosine) < 1.0 - parallel) {
+  } else if (std::abs(cosine) > parallel_within && std::abs(cosine) < 1.0 - parallel_within) {
     const Vector3d along = opening.normal - cosine * plane.normal;
     const double size = along.norm();
     // of a point of the plane, x = x∥ − o n: its distance from the opening's plane is n'·x − n'·c
@@ -170,14 +170,14 @@ std::vector<TankPlane> tank_planes(const Layout& layout, const std::vector<Openi
     if (facet.owner != 0 || is_of_pocket(openings, facet, tolerance)) continue;
     const TankPlane plane{-facet.normal, facet.normal.dot(facet.plane_point)};
     const bool known = std::any_of(planes.begin(), planes.end(), [&](const TankPlane& other) {
-      return other.normal.dot(plane.normal) > 1.0 - parallel && std::abs(distance_from(other, facet.plane_point)) < tolerance;
+      return other.normal.dot(plane.normal) > 1.0 - parallel_within && std::abs(distance_from(other, facet.plane_point)) < tolerance;
     });
     if (!known) planes.push_back(plane);
   }
   for (const TankPlane& plane : planes) {
     for (const TankPlane& other : planes) {
       const double cosine = std::abs(plane.normal.dot(other.normal));
-      if (cosine > parallel && cosine < 1.0 - parallel)
+      if (cosine > parallel_within && cosine < 1.0 - parallel_within)
         throw Error(chosen + ", which needs walls at right angles, but the tank has walls that face " + text(plane.normal) + " and " +
                     text(other.normal) + ": choose " + instead + ".");
     }
@@ -232,7 +232,7 @@ std::vector<TankImage> tank_images(const Case& scene, const Layout& layout, cons
         const Opening& opening = layout.openings[o];
         const std::size_t before = mirror.gaps.size();
         add_gap(plane, opening, borders, own, layout.spacing, mirror.gaps);
-        const bool in_plane = mirror.gaps.size() > before && plane.normal.dot(opening.normal) > 1.0 - parallel;
+        const bool in_plane = mirror.gaps.size() > before && plane.normal.dot(opening.normal) > 1.0 - parallel_within;
         if (in_plane) check_width(scene.openings.at(o), opening, mirror.gaps.back(), layout);
       }
       for (PlaneGap& gap : mirror.gaps) {

@@ -58,7 +58,7 @@ TEST(SnapshotOfRiemannSchemes, IsTakenUpAgainToTheBit) {
     for (int k = 0; k < 20; ++k) ASSERT_TRUE(tank.solver->advance().valid());
     EXPECT_EQ(tank.solver->save(), later);
     SnapshotBlocks without(saved);
-    without.remove("particles: gradients");
+    remove_gradients(without);
     tank.solver->restore(without.bytes());
     for (int k = 0; k < 20; ++k) ASSERT_TRUE(tank.solver->advance().valid());
     EXPECT_NE(tank.solver->save(), later) << "gradients make no difference: nothing is shown";

@@ -9,6 +9,11 @@
 
 namespace wavetank {
 
+/// Those that a step is to begin with: of the state that the snapshot was of.
+inline void remove_gradients(SnapshotBlocks& blocks) {
+  for (int k = 0; blocks.has("particles: gradient " + std::to_string(k)); ++k) blocks.remove("particles: gradient " + std::to_string(k));
+}
+
 /// The bytes of a solver's state, by field and particle's id.
 template <class Real>
 class StateBytes {
@@ -19,7 +24,7 @@ class StateBytes {
   Real get(const std::string& component, std::size_t id) { return values(component).at(id); }
   void set(const std::string& component, std::size_t id, double value) { values(component).at(id) = static_cast<Real>(value); }
   std::vector<char> bytes() {
-    if (!values_.empty()) blocks_.remove("particles: gradients");  // of what the state was
+    if (!values_.empty()) remove_gradients(blocks_);
     for (const auto& [component, changed] : values_) blocks_.put("particles: " + component, changed);
     return blocks_.bytes();
   }

@@ -35,8 +35,4 @@ class PicturePace {
   Clock::time_point last_;
 };
 
-inline double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
 }  // namespace wavetank
