@@ -187,29 +187,29 @@ void SphSolver<Real>::correct_end() {
   kernels_.correct_end.launch(count_);
 }
 
-#define WAVETANK_STAGES(Real) \
-  template void SphSolver<Real>::walls_at(double); \
-  template void SphSolver<Real>::find_accelerations(Slot); \
-  template void SphSolver<Real>::find_compression_rates(Slot); \
-  template void SphSolver<Real>::find_rates(Slot); \
-  template void SphSolver<Real>::find_gradients(Slot); \
-  template void SphSolver<Real>::find_own_gradients(); \
-  template void SphSolver<Real>::forget_gradients(); \
-  template void SphSolver<Real>::reserve_blocks(); \
-  template void SphSolver<Real>::add_wrenches(Slot, double); \
-  template void SphSolver<Real>::walls_to_end(); \
-  template void SphSolver<Real>::guard(); \
-  template void SphSolver<Real>::sweep_surface(); \
-  template void SphSolver<Real>::find_shifts(); \
-  template void SphSolver<Real>::impose_zones(); \
-  template void SphSolver<Real>::damp_velocities(); \
-  template void SphSolver<Real>::hold_zones(Slot); \
-  template void SphSolver<Real>::drift_to_middle(); \
-  template void SphSolver<Real>::kick_and_drift_to_end(); \
-  template void SphSolver<Real>::compress_to_end(); \
+#define WAVETANK_STAGES(Real)                                             \
+  template void SphSolver<Real>::walls_at(double);                        \
+  template void SphSolver<Real>::find_accelerations(Slot);                \
+  template void SphSolver<Real>::find_compression_rates(Slot);            \
+  template void SphSolver<Real>::find_rates(Slot);                        \
+  template void SphSolver<Real>::find_gradients(Slot);                    \
+  template void SphSolver<Real>::find_own_gradients();                    \
+  template void SphSolver<Real>::forget_gradients();                      \
+  template void SphSolver<Real>::reserve_blocks();                        \
+  template void SphSolver<Real>::add_wrenches(Slot, double);              \
+  template void SphSolver<Real>::walls_to_end();                          \
+  template void SphSolver<Real>::guard();                                 \
+  template void SphSolver<Real>::sweep_surface();                         \
+  template void SphSolver<Real>::find_shifts();                           \
+  template void SphSolver<Real>::impose_zones();                          \
+  template void SphSolver<Real>::damp_velocities();                       \
+  template void SphSolver<Real>::hold_zones(Slot);                        \
+  template void SphSolver<Real>::drift_to_middle();                       \
+  template void SphSolver<Real>::kick_and_drift_to_end();                 \
+  template void SphSolver<Real>::compress_to_end();                       \
   template void SphSolver<Real>::go_on_trial(Slot, bool, double, double); \
-  template void SphSolver<Real>::take_sum(double); \
-  template void SphSolver<Real>::predict_end(); \
+  template void SphSolver<Real>::take_sum(double);                        \
+  template void SphSolver<Real>::predict_end();                           \
   template void SphSolver<Real>::correct_end();
 WAVETANK_STAGES(float)
 WAVETANK_STAGES(double)

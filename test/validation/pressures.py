@@ -91,7 +91,8 @@ def run(program, case, folder, name, spacing):
         with open(bag[:-4] + ".log", "w", encoding="utf-8") as log:
             log.write(done.stdout)
         if done.returncode:
-            raise Wrong("%s at %g m ended with code %d: %s" % (name, spacing, done.returncode, done.stdout.strip().splitlines()[-1]))
+            told = [line for line in done.stdout.splitlines() if line.startswith("wavetank_run: ") and not line.startswith("wavetank_run: warning: ")]
+            raise Wrong("%s at %g m ended with code %d: %s" % (name, spacing, done.returncode, told[-1] if told else "it told nothing"))
         steps = re.search(r"^steps +(\d+)", done.stdout, re.MULTILINE)
         taken = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
         with open(facts, "w", encoding="utf-8") as file:

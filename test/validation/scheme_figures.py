@@ -16,6 +16,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 SCHEMES = ["delta_sph", "riemann_parshikov", "riemann_ale"]
+PANEL = 180  # points across a picture of particles, of which each is as large as its spacing
 LAWS = ["michel", "lind", "sun", "oger", "monaghan"]
 COLUMNS = ["t", "energy", "speed", "shift", "mean_shift", "pressure", "error", "volume", "mass", "least", "most", "close", "centre", "worst"]
 
@@ -174,7 +175,16 @@ def laws(runs, sides):
         x = particles["x"] % 1
         # as the paper's pictures: what was found on the left, what is right on the right
         right = 0.25 * (numpy.cos(4 * math.pi * x) + numpy.cos(4 * math.pi * particles["z"]))
-        drawn = axis.scatter(x, particles["z"] % 1, c=numpy.where(x < 0.5, particles["pressure"], right), s=0.6, cmap="jet", vmin=-0.5, vmax=0.5, linewidths=0)
+        drawn = axis.scatter(
+            x,
+            particles["z"] % 1,
+            c=numpy.where(x < 0.5, particles["pressure"], right),
+            s=(PANEL / sides[-1]) ** 2,
+            cmap="jet",
+            vmin=-0.5,
+            vmax=0.5,
+            linewidths=0,
+        )
         axis.set_title("%s, tU/L = %.2f" % (law, time))
         axis.set_aspect("equal")
         axis.set_xlim(0, 1)
@@ -229,10 +239,11 @@ def square_fields(runs, sides):
         for axis in row:
             axis.axis("off")
         for (time, particles), axis in zip(field, row):
-            drawn = axis.scatter(particles["x"], particles["z"], c=particles["pressure"], s=0.8, cmap="jet", vmin=-0.15, vmax=0, linewidths=0)
+            reach = 0.75 * math.hypot(1, time)
+            size = (PANEL / (2 * reach * n)) ** 2
+            drawn = axis.scatter(particles["x"], particles["z"], c=particles["pressure"], s=size, cmap="jet", vmin=-0.15, vmax=0, linewidths=0)
             axis.set_title("%s, tω = %.1f" % (scheme, time), fontsize=9)
             axis.set_aspect("equal")
-            reach = 0.75 * math.hypot(1, time)
             axis.set_xlim(-reach, reach)
             axis.set_ylim(-reach, reach)
     figure.colorbar(drawn, ax=axes, label="p/ρω²L²", shrink=0.5)
