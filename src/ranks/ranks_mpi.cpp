@@ -59,18 +59,19 @@ void finalize() {
   MPI_Finalize();
 }
 
-/// How long somebody waits, and how gently.
+/// How long somebody waits, and how gently. By the clock: on a busy machine each look that gives way to others may take milliseconds.
 class Waiting {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  bool is_long() const { return looks_ > 2000; }
+  bool is_long() const { return seconds() > 0.02; }
   /// Now and then, more seldom the longer it takes.
   bool is_time_to_look_around() const { return is_long() || looks_ % 64 == 63; }
   void rest() {
     ++looks_;
-    if (looks_ > 6000)  // a second and more: a tank that is paused, say
+    const double waited = seconds();
+    if (waited > 1)  // a tank that is paused, say
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    else if (looks_ > 4000)
+    else if (waited > 0.2)
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     else if (is_long())
       std::this_thread::sleep_for(std::chrono::microseconds(50));
