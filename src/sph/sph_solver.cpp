@@ -139,6 +139,8 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   // least squares are exact at the places alone that they were found for
   holds_gradients_ = accelerates_by_gradients_ && compresses_by_gradients_ && scene.numerics.gradients == Gradients::sph &&
                      scene.numerics.integrator == Integrator::symplectic;
+  joins_surface_ = shifts() && accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph;
+  begins_with_gradients_ = shifts() && scene.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume");
   add_options(rows.methods(scene), options_);
   if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() &&
       options_.at("THIN_WALLS") == 0)

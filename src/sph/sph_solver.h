@@ -108,7 +108,7 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
   /// Without the other parts, which all have what they need.
   void sort_alone();
-  enum class SavedArray { state, rates, gradients };
+  enum class SavedArray { state, rates, gradients, surroundings };
   struct SavedComponent {
     std::string block;
     SavedArray array;
@@ -181,7 +181,15 @@ class SphSolver final : public Solver, private StepEngine {
   void place_barriers();
   void load_walls(Slot state);
   void sweep_surface();
+  void reserve_surroundings();
   void find_gradients(Slot state);
+  void find_gradients(Slot state, bool with_surface);
+  /// Without the other parts.
+  void sweep_gradients(Slot state, bool with_surface);
+  /// What shifts go by is found at the end of the step before.
+  bool ends_with_surface() const { return joins_surface_ && holds_gradients_ && !begins_with_gradients_; }
+  /// A snapshot has gradients, and what was found with them.
+  bool saves_gradients() const { return gradients_are_held_ && !begins_with_gradients_; }
   /// They are of another state, or order, of the particles.
   void forget_gradients();
   /// Tiles that sweeps go over.
@@ -198,7 +206,7 @@ class SphSolver final : public Solver, private StepEngine {
   struct Kernels {
     std::map<Slot, compute::BoundKernel> hold_rates;
     std::map<Slot, BoundSweep> continuity, momentum, rates, gradients, loads;
-    BoundSweep packing, normals, cone, shifts, crowding, pairs, guard;
+    BoundSweep packing, surroundings, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end, impose,
         hold_shifts, damp, mark_surface;
     compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
@@ -242,11 +250,16 @@ class SphSolver final : public Solver, private StepEngine {
   bool elements_ = false;  ///< the walls are elements, with a pressure of their own
   bool accelerates_by_gradients_ = false;
   bool compresses_by_gradients_ = false;
-  int listed_blocks_ = 0;              ///< of candidates of a tile, at the most
-  bool blocks_are_of_now_ = false;     ///< and not of another state, or order, of the particles
-  bool gradients_are_of_now_ = false;  ///< they were found ahead of the stage that needs them
+  int listed_blocks_ = 0;       ///< of candidates of a tile, at the most
+  bool joins_surface_ = false;  ///< what shifting laws go by is found with the gradients of a step's start
+  /// Where volumes follow what moves the particles, a step must begin with rates by its own shifts, and with gradients after the last one's
+  /// end.
+  bool begins_with_gradients_ = false;
+  bool gradients_are_of_now_ = false;  ///< and not of another state, or order, of the particles
+  bool gradients_are_ahead_ = false;   ///< and the stage that needs them is still to come
   bool holds_gradients_ = false;       ///< the middle of a step goes by those of its start
   bool gradients_are_held_ = false;    ///< those are there
+  bool surface_is_of_now_ = false;     ///< likewise, what was found with them
   int long_axes_ = 0;                  ///< along which a particle's place is known in two parts
   CaseWalls case_walls_;
   Tiling tiling_;

@@ -54,6 +54,8 @@ void SphSolver<Real>::bind_sweeps() {
   }
   kernels_.packing = make_->over_particles("packing.cl", "packing", arguments().memory("rates", rates_));
   kernels_.normals = make_->over_particles("surface.cl", "surface_normals", arguments().memory("around", around_));
+  kernels_.surroundings = make_->over_particles(
+      "surroundings.cl", "surroundings", arguments().memory("gradient", gradient_).memory("blocks", blocks_).memory("around", around_));
   kernels_.cone = make_->over_particles("cone.cl", "surface_cone", arguments().memory("around", around_));
   if (shifts()) bind_shifts();
   kernels_.crowding = make_->over_particles("crowding.cl", "crowding", arguments().memory("fillings", fillings_));

@@ -99,7 +99,7 @@ void SphSolver<Real>::reserve(int count) {
   const Stride stride = stride_for(count + count / 4);
   const auto chunks = static_cast<std::size_t>(chunks_of(static_cast<int>(stride)));
   const auto groups = static_cast<std::size_t>(chunks_of(static_cast<int>(chunks)));
-  Buffer* const arrays[] = {&state_, &rates_, &gradient_, &half_, &sum_};
+  Buffer* const arrays[] = {&state_, &rates_, &gradient_, &around_, &half_, &sum_};
   std::vector<Buffer> larger;
   for (const Buffer* array : arrays) larger.push_back(respaced(device_, *array, stride_, stride));
   compute::Buffer<std::uint32_t> ids = respaced(device_, id_, static_cast<Stride>(id_.size()), stride), spare_ids(device_, stride);
@@ -112,7 +112,6 @@ void SphSolver<Real>::reserve(int count) {
   for (std::size_t k = 0; k < larger.size(); ++k) *arrays[k] = std::move(larger[k]);
   id_ = std::move(ids);
   spare_id_ = std::move(spare_ids);
-  around_ = Buffer();
   fillings_ = std::move(fillings);
   watches_ = std::move(watches);
   group_watches_ = std::move(group_watches);

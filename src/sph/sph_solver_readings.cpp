@@ -136,10 +136,9 @@ FluidState SphSolver<Real>::download() {
 
 template <class Real>
 FluidSurface SphSolver<Real>::find_surface() {
-  around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
   sweep_surface();
   const std::vector<Real> around = around_.download();
-  around_ = Buffer();
+  if (!shifts()) around_ = Buffer();
   FluidSurface found;
   for (int i = 0; i < count_; ++i) {
     found.on_surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);

@@ -21,6 +21,8 @@ constexpr const char* guard_block = "guard: impulses";
 
 std::string gradient_block(int component) { return "particles: gradient " + std::to_string(component); }
 
+std::string surroundings_block(int component) { return "particles: surroundings " + std::to_string(component); }
+
 std::string block_of(const FieldRow& row, const std::string& component) {
   return (row.array == ParticleArray::state ? "particles: " : "particles: rate of ") + component;
 }
@@ -48,6 +50,9 @@ auto SphSolver<Real>::saved_components(bool gradients) const -> std::vector<Save
   }
   for (int k = 0; gradients && k < gradient_count(); ++k)
     saved.push_back({gradient_block(k), SavedArray::gradients, static_cast<std::size_t>(k)});
+  for (int k = 0; gradients && joins_surface_ && k < field::around_count; ++k)
+    if (k != field::around_surface)  // which the next step finds by the others
+      saved.push_back({surroundings_block(k), SavedArray::surroundings, static_cast<std::size_t>(k)});
   return saved;
 }
 
@@ -56,7 +61,8 @@ std::vector<char> SphSolver<Real>::save() const {
   const std::map<SavedArray, std::vector<Real>> from{
       {SavedArray::state, state_.download()},
       {SavedArray::rates, rates_.download()},
-      {SavedArray::gradients, gradients_are_held_ ? gradient_.download() : std::vector<Real>()}};
+      {SavedArray::gradients, saves_gradients() ? gradient_.download() : std::vector<Real>()},
+      {SavedArray::surroundings, saves_gradients() && joins_surface_ ? around_.download() : std::vector<Real>()}};
   const std::vector<Real>& state = from.at(SavedArray::state);
   const std::vector<std::uint32_t> id = id_.download(count_);
   std::vector<int> order = order_by_id(id);
@@ -70,7 +76,7 @@ std::vector<char> SphSolver<Real>::save() const {
   SnapshotBlocks blocks;
   blocks.put(id_block, in_order([&](int i) { return id[i]; }));
   blocks.put(next_id_block, std::vector<double>{static_cast<double>(next_id_)});
-  for (const SavedComponent& saved : saved_components(gradients_are_held_))
+  for (const SavedComponent& saved : saved_components(saves_gradients()))
     blocks.put(saved.block, in_order([&](int i) { return from.at(saved.array)[saved.place * static_cast<std::size_t>(stride_) + i]; }));
   blocks.put(step_block, std::vector<double>{step_, greatest_speed_, greatest_acceleration_});
   blocks.put(lists_block, moving_walls_ ? moving_walls_->listed() : std::vector<double>());
@@ -128,7 +134,12 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   report_.upload({static_cast<Real>(step_)});  // its first value, which the next step reads
   std::map<SavedArray, std::vector<Real>> arrays{{SavedArray::state, std::vector<Real>(state_.size(), Real(0))},
                                                  {SavedArray::rates, std::vector<Real>(rates_.size(), Real(0))},
-                                                 {SavedArray::gradients, std::vector<Real>(gradient_.size(), Real(0))}};
+                                                 {SavedArray::gradients, std::vector<Real>(gradient_.size(), Real(0))},
+                                                 {SavedArray::surroundings, std::vector<Real>()}};
+  if (with_gradients && joins_surface_) {
+    reserve_surroundings();
+    arrays[SavedArray::surroundings].resize(around_.size(), Real(0));
+  }
   for (std::size_t k = 0; k < components.size(); ++k)
     std::copy(values[k].begin(), values[k].end(),
               arrays[components[k].array].begin() + static_cast<std::ptrdiff_t>(components[k].place * static_cast<std::size_t>(stride_)));
@@ -137,6 +148,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   // what lies beyond the particles may be left from a run that has gone wrong
   half_.fill_zero();
   gradient_.fill_zero();
+  around_.fill_zero();
   state_.upload(state);
   id_.upload(id);
   if (part_)
@@ -146,6 +158,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   upload_by_id(rates_, fields_.count(ParticleArray::rates), arrays[SavedArray::rates]);
   if (holds_gradients_) find_own_gradients();  // of a snapshot without them; of another they are listed by it
   if (with_gradients) upload_by_id(gradient_, gradient_count(), arrays[SavedArray::gradients]);
+  if (with_gradients && joins_surface_) upload_by_id(around_, field::around_count, arrays[SavedArray::surroundings]);
   masses_let_in_.clear();
 }
 

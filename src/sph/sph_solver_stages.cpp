@@ -47,26 +47,36 @@ void SphSolver<Real>::find_rates(Slot state) {
 template <class Real>
 void SphSolver<Real>::find_gradients(Slot state) {
   if (gradient_.size() == 0) return;
-  if (std::exchange(gradients_are_of_now_, false) && state == Slot::now) return;
-  reserve_blocks();
+  if (std::exchange(gradients_are_ahead_, false) && state == Slot::now) return;
+  find_gradients(state, state == Slot::now && ends_with_surface());
+}
+
+template <class Real>
+void SphSolver<Real>::find_gradients(Slot state, bool with_surface) {
   spoil("gradients");
-  over_own(kernels_.gradients[state]);
+  sweep_gradients(state, with_surface);
   refresh("gradients");
-  blocks_are_of_now_ = state == Slot::now;
-  gradients_are_held_ = holds_gradients_ && blocks_are_of_now_;
+}
+
+template <class Real>
+void SphSolver<Real>::sweep_gradients(Slot state, bool with_surface) {
+  reserve_blocks();
+  gradients_are_of_now_ = state == Slot::now;
+  gradients_are_held_ = holds_gradients_ && gradients_are_of_now_;
+  surface_is_of_now_ = with_surface;
+  if (with_surface) reserve_surroundings();
+  over_own(with_surface ? kernels_.surroundings : kernels_.gradients[state]);
 }
 
 /// Without the other parts, which all do the same.
 template <class Real>
 void SphSolver<Real>::find_own_gradients() {
-  reserve_blocks();
-  over_own(kernels_.gradients[Slot::now]);
-  blocks_are_of_now_ = gradients_are_held_ = true;
+  sweep_gradients(Slot::now, ends_with_surface());
 }
 
 template <class Real>
 void SphSolver<Real>::forget_gradients() {
-  blocks_are_of_now_ = gradients_are_of_now_ = gradients_are_held_ = false;
+  gradients_are_of_now_ = gradients_are_ahead_ = gradients_are_held_ = surface_is_of_now_ = false;
 }
 
 template <class Real>
@@ -109,37 +119,46 @@ void SphSolver<Real>::guard() {
 }
 
 template <class Real>
+void SphSolver<Real>::reserve_surroundings() {
+  const std::size_t wanted = static_cast<std::size_t>(field::around_count) * stride_;
+  if (around_.size() != wanted) around_ = Buffer(device_, wanted);
+}
+
+template <class Real>
 void SphSolver<Real>::sweep_surface() {
-  if (listed_blocks_ != 0 && !blocks_are_of_now_) find_gradients(Slot::now);
-  over_own(kernels_.normals);
+  reserve_surroundings();
+  if (joins_surface_ ? !surface_is_of_now_ : listed_blocks_ != 0 && !gradients_are_of_now_) find_gradients(Slot::now, joins_surface_);
+  if (!joins_surface_) over_own(kernels_.normals);
   over_own(kernels_.cone);
 }
 
 template <class Real>
 void SphSolver<Real>::find_shifts() {
-  if (around_.size() == 0) around_ = Buffer(device_, static_cast<std::size_t>(field::around_count) * stride_);
+  reserve_surroundings();
   spoil("surroundings");
-  const bool ahead = listed_blocks_ != 0 && !blocks_are_of_now_;
+  if (begins_with_gradients_) forget_gradients();
   sweep_surface();
-  gradients_are_of_now_ = ahead && case_.numerics.integrator != Integrator::symplectic;
   refresh("surroundings");
   if (surface_cells_.size() == 0) surface_cells_ = compute::Buffer<int>(device_, cells_of(discretisation_));
   surface_cells_.fill_zero();
   kernels_.mark_surface.launch(count_);
   over_own(kernels_.shifts);
   if (zones_.any()) kernels_.hold_shifts.launch(count_);
-  // where volumes follow what moves the particles, the step must not begin with rates of the last one's shifts
-  if (case_.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume")) find_compression_rates(Slot::now);
+  gradients_are_ahead_ = gradients_are_of_now_;
+  if (begins_with_gradients_) find_compression_rates(Slot::now);
 }
 
 template <class Real>
 void SphSolver<Real>::impose_zones() {
-  if (zones_.any()) kernels_.impose.launch(count_);
+  if (!zones_.any()) return;
+  kernels_.impose.launch(count_);
+  if (!gradients_are_held_) forget_gradients();  // that a reading between two steps left, or it would matter whether there was one
 }
 
 template <class Real>
 void SphSolver<Real>::damp_velocities() {
   kernels_.damp.launch(count_);
+  if (!gradients_are_held_) forget_gradients();
 }
 
 template <class Real>
@@ -193,6 +212,9 @@ void SphSolver<Real>::correct_end() {
   template void SphSolver<Real>::find_compression_rates(Slot);            \
   template void SphSolver<Real>::find_rates(Slot);                        \
   template void SphSolver<Real>::find_gradients(Slot);                    \
+  template void SphSolver<Real>::find_gradients(Slot, bool);              \
+  template void SphSolver<Real>::sweep_gradients(Slot, bool);             \
+  template void SphSolver<Real>::reserve_surroundings();                  \
   template void SphSolver<Real>::find_own_gradients();                    \
   template void SphSolver<Real>::forget_gradients();                      \
   template void SphSolver<Real>::reserve_blocks();                        \

@@ -50,6 +50,7 @@ TEST(SnapshotOfRiemannSchemes, IsTakenUpAgainToTheBit) {
     const std::vector<char> saved = tank.solver->save();
     for (int k = 0; k < 20; ++k) {
       tank.solver->wrenches();  // which a reading may ask for at any time
+      tank.solver->find_surface();
       ASSERT_TRUE(tank.solver->advance().valid());
     }
     const std::vector<char> later = tank.solver->save();

@@ -11,7 +11,9 @@ namespace wavetank {
 
 /// Those that a step is to begin with: of the state that the snapshot was of.
 inline void remove_gradients(SnapshotBlocks& blocks) {
-  for (int k = 0; blocks.has("particles: gradient " + std::to_string(k)); ++k) blocks.remove("particles: gradient " + std::to_string(k));
+  for (const std::string array : {"particles: gradient ", "particles: surroundings "})
+    for (int k = 0; k < 20; ++k)
+      if (blocks.has(array + std::to_string(k))) blocks.remove(array + std::to_string(k));
 }
 
 /// The bytes of a solver's state, by field and particle's id.

@@ -11,6 +11,11 @@
 // Elements are sorted by cells of the support's size, x fastest: three cells in a row are one contiguous run. Facets are larger than cells: each cell has a
 // list of those within the support of it.
 #ifdef SWEEP_PARTICLES
+#if defined(KEEPS_BLOCKS) || defined(TAKES_BLOCKS)
+#define GOES_BY_BLOCKS 1
+#else
+#define GOES_BY_BLOCKS 0
+#endif
 #include "runs.cl"
 #if THIN_WALLS
 #include "sight.cl"
@@ -99,7 +104,10 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
     }
     sweep_rows(sums, p, slot_start, &at);
   }
-#elif HAS_BLOCK_LIST && defined(TAKES_BLOCKS)
+#elif HAS_BLOCK_LIST && GOES_BY_BLOCKS
+#ifdef KEEPS_BLOCKS
+  list_blocks(&sums->near, p, slot_start, &at);
+#endif
   if (sums->near.blocks[0] >= 0)
     sweep_listed(sums, p, &at);
   else

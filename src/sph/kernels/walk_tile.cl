@@ -23,32 +23,16 @@ INLINE block_t block_of(const neighbours_t* near, const int* run, int gone, tile
   return b;
 }
 
-#if HAS_BLOCK_LIST && defined(KEEPS_BLOCKS)
-#define WITH_BLOCK_LIST 1
-#else
-#define WITH_BLOCK_LIST 0
-#endif
-
 INLINE void sweep_blocks(sweep_t* sums, __constant const parameters_t* p, const int* list, int blocks, tile x, tile y, tile z) {
   const int* run = list;
-#if WITH_BLOCK_LIST
-  int kept = 0;
-#endif
   for (int gone = 0; gone < TILE_NEAR * blocks; gone += TILE_NEAR) {
     const block_t b = block_of(&sums->near, run, gone, x, y, z);
-#if WITH_BLOCK_LIST
-    sums->near.blocks[1 + min(kept, BLOCK_LIST)] = b.j * TILE_NEAR + TILE_NEAR - min(b.left, TILE_NEAR);
-    kept += ANY_LANE(b.r2 < (tile)(p->support_squared)) ? 1 : 0;
-#endif
 #if HAS_BLOCK_LIST && defined(SKIPS_EMPTY_BLOCKS)
     if (ANY_LANE(b.r2 < (tile)(p->support_squared)))
 #endif
       add_particle(sums, p, b.j, b.rx, b.ry, b.rz, b.r2);
     run += b.left <= TILE_NEAR ? 2 : 0;
   }
-#if WITH_BLOCK_LIST
-  sums->near.blocks[0] = kept <= BLOCK_LIST ? kept : -1;
-#endif
 }
 
 #if THIN_WALLS
@@ -126,14 +110,18 @@ SELDOM bool sweep_past(sweep_t* sums, __constant const parameters_t* p, const in
 }
 #endif
 
-// All rows near the box, of which there are no more than MOST_ROWS. First a list of runs, then the candidates of all of them in one loop, whose end a
-// processor foresees: runs are short.
-INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, const places_t* at, tile x, tile y, tile z) {
-  neighbours_t* near = &sums->near;
-  const rows_t rows = rows_near(p, &box, near->reach);
+// The runs near a box: where each begins, less what the runs before have gone through, and where it ends; and how many blocks of candidates they have.
+typedef struct {
+  int list[2 * MOST_ROWS];
+  int runs, blocks;
+} runs_t;
+
+// Of all rows near the box, of which there are no more than MOST_ROWS. The candidates of all of them are then gone through in one loop, whose end a processor
+// foresees: runs are short.
+INLINE void runs_near(runs_t* found, __constant const parameters_t* p, __global const int* slot_start, box_t box, real reach) {
+  const rows_t rows = rows_near(p, &box, reach);
   const span_t span = span_of(p, &box);
-  const real reach2 = near->reach * near->reach;
-  int list[2 * MOST_ROWS];  // where each run begins, less what the runs before have gone through, and where it ends
+  const real reach2 = reach * reach;
   int runs = 0, blocks = 0;
   for (int rz = rows.z0; rz <= rows.z1; ++rz) {
     const real gap_z = gap_to_row(p, rz, box.z0, box.z1);
@@ -142,19 +130,34 @@ INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global 
       const real gap_y = gap_y_to_row(p, ry, &box);
       const run_t run = run_of_row(p, slot_start, &span, left - gap_y * gap_y, row_index(p, ry, rz));
       const int length = run.end - run.begin;
-      list[runs] = run.begin - TILE_NEAR * blocks;
-      list[runs + 1] = run.end;
+      found->list[runs] = run.begin - TILE_NEAR * blocks;
+      found->list[runs + 1] = run.end;
       runs += length > 0 ? 2 : 0;
       blocks += (length + TILE_NEAR - 1) / TILE_NEAR;
     }
   }
+  found->runs = runs;
+  found->blocks = blocks;
+}
+
+INLINE void sweep_box(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, box_t box, const places_t* at, tile x, tile y, tile z) {
+  neighbours_t* near = &sums->near;
+  runs_t found;
+  runs_near(&found, p, slot_start, box, near->reach);
 #if THIN_WALLS
   near->past = near_barriers(near, p, at);
-  if (near->past && sweep_past(sums, p, list, runs, blocks, at, x, y, z)) return;
+  if (near->past && sweep_past(sums, p, found.list, found.runs, found.blocks, at, x, y, z)) return;
   near->seen = (tile)(R(1.0));  // here too, so that the compiler leaves it out
   near->through = (tile)(R(0.0));
 #endif
-  sweep_blocks(sums, p, list, blocks, x, y, z);
+  sweep_blocks(sums, p, found.list, found.blocks, x, y, z);
+}
+
+// The box about a tile's particles; whether they lie together.
+INLINE bool lie_together(__constant const parameters_t* p, const places_t* at, int own, real reach, box_t* all) {
+  *all = within_grid(p, box_of_places(at, own));
+  const rows_t rows = rows_near(p, all, reach);
+  return TILE_OWN == 1 || ((rows.y1 - rows.y0 + 1) * (rows.z1 - rows.z0 + 1) <= MOST_ROWS && all->x1 - all->x0 < R(2.0) * p->support);
 }
 
 // The neighbours around `at`, which for images is not where the particles themselves lie. Where the tile's particles do not lie together, in spray, each
@@ -165,9 +168,8 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
   sweep_box(sums, p, slot_start, within_grid(p, box_of_place(at, 0)), at, x, y, z);
 #else
   const int own = sums->near.own;
-  const box_t all = within_grid(p, box_of_places(at, own));
-  const rows_t rows = rows_near(p, &all, sums->near.reach);
-  const bool together = (rows.y1 - rows.y0 + 1) * (rows.z1 - rows.z0 + 1) <= MOST_ROWS && all.x1 - all.x0 < R(2.0) * p->support;
+  box_t all;
+  const bool together = lie_together(p, at, own, sums->near.reach, &all);
   const int parts = together ? 1 : own;
   for (int part = 0; part < parts; ++part) {
     box_t box = all;
@@ -178,13 +180,32 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
     }
     sweep_box(sums, p, slot_start, box, at, at_x, y, z);
   }
-#if WITH_BLOCK_LIST
-  if (!together) sums->near.blocks[0] = -1;  // each particle has blocks of its own
-#endif
 #endif
 }
 
-#if HAS_BLOCK_LIST && defined(TAKES_BLOCKS)
+#if HAS_BLOCK_LIST && defined(KEEPS_BLOCKS)
+// Of what lies about a tile the blocks that have a pair: what is added up then goes through them alone. None are listed of particles that do not lie together,
+// of which each has blocks of its own, nor where there are more than there is room for.
+INLINE void list_blocks(neighbours_t* near, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
+  near->blocks[0] = -1;
+  box_t all;
+  if (!lie_together(p, at, near->own, near->reach, &all)) return;
+  const tile x = spread_own(at->x), y = spread_own(at->y), z = spread_own(at->z);
+  runs_t found;
+  runs_near(&found, p, slot_start, all, near->reach);
+  const int* run = found.list;
+  int kept = 0;
+  for (int gone = 0; gone < TILE_NEAR * found.blocks; gone += TILE_NEAR) {
+    const block_t b = block_of(near, run, gone, x, y, z);
+    near->blocks[1 + min(kept, BLOCK_LIST)] = b.j * TILE_NEAR + TILE_NEAR - min(b.left, TILE_NEAR);
+    kept += ANY_LANE(b.r2 < (tile)(p->support_squared)) ? 1 : 0;
+    run += b.left <= TILE_NEAR ? 2 : 0;
+  }
+  near->blocks[0] = kept <= BLOCK_LIST ? kept : -1;
+}
+#endif
+
+#if HAS_BLOCK_LIST && GOES_BY_BLOCKS
 // Those of the list, which add to each sum what all would: without a pair a block adds zeros. The sums are the loop's own, which the call of the other walk
 // would else keep in memory.
 INLINE void sweep_listed(sweep_t* all_sums, __constant const parameters_t* p, const places_t* at) {
