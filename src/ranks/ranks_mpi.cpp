@@ -112,6 +112,11 @@ class MpiRanks final : public Ranks, private Group {
     Bytes bytes;
     std::vector<MPI_Request> requests;
   };
+  /// A piece of one that comes, likewise.
+  struct Coming {
+    Bytes bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
   /// A reduction under way, likewise, whatever becomes of it.
   template <class T>
   struct Reduction {
@@ -134,9 +139,11 @@ class MpiRanks final : public Ranks, private Group {
   std::vector<T> combine(std::list<Reduction<T>>& kept, const std::vector<T>& values, MPI_Datatype type, MPI_Op operation);
   void post(int to, Tag tag, Bytes bytes);
   Bytes take(int from, Tag tag, Patience limit);
-  /// A message that is there.
-  Bytes read(int from, Tag tag);
+  /// A message whose beginning is there. The rest needs the sender still, who may end in the middle of it: MPI_Recv would wait for ever.
+  Bytes read(int from, Tag tag, Patience limit);
+  Bytes read_piece(int from, Tag tag, Patience limit);
   bool is_there(int from, Tag tag) const;
+  static bool is_done(MPI_Request& request);
   /// Until `done`, for the sake of rank `whom`, or of all (-1).
   template <class Done>
   void wait(int whom, Patience limit, const Done& done);
@@ -159,6 +166,7 @@ class MpiRanks final : public Ranks, private Group {
   std::vector<Process> processes_;
   std::vector<bool> is_visible_;  ///< processes that can be looked at from here
   std::list<Sent> sent_;
+  std::list<Coming> coming_;
   std::list<Reduction<double>> reals_;
   std::list<Reduction<std::int64_t>> integers_;
   std::string failed_;  ///< why, once there is no more to be had of the ranks
@@ -244,24 +252,40 @@ bool MpiRanks::is_there(int from, Tag tag) const {
   return there != 0;
 }
 
-Bytes MpiRanks::read(int from, Tag tag) {
-  Bytes bytes;
-  while (true) {
-    MPI_Status status;
-    check(MPI_Probe(from, tag, comm_, &status), "MPI_Probe");
-    int count = 0;
-    check(MPI_Get_count(&status, MPI_BYTE, &count), "MPI_Get_count");
-    const std::size_t before = bytes.size();
-    bytes.resize(before + static_cast<std::size_t>(count));
-    check(MPI_Recv(bytes.data() + before, count, MPI_BYTE, from, tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
-    if (static_cast<std::size_t>(count) < piece) return bytes;
+bool MpiRanks::is_done(MPI_Request& request) {
+  int done = 0;
+  check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+  return done != 0;
+}
+
+Bytes MpiRanks::read_piece(int from, Tag tag, Patience limit) {
+  wait(from, limit, [&] { return is_there(from, tag); });
+  MPI_Status status;
+  check(MPI_Probe(from, tag, comm_, &status), "MPI_Probe");
+  int count = 0;
+  check(MPI_Get_count(&status, MPI_BYTE, &count), "MPI_Get_count");
+  const auto coming = coming_.insert(coming_.end(), Coming{Bytes(static_cast<std::size_t>(count)), MPI_REQUEST_NULL});
+  check(MPI_Irecv(coming->bytes.data(), count, MPI_BYTE, from, tag, comm_, &coming->request), "MPI_Irecv");
+  wait(from, limit, [&] { return is_done(coming->request); });
+  Bytes bytes = std::move(coming->bytes);
+  coming_.erase(coming);
+  return bytes;
+}
+
+Bytes MpiRanks::read(int from, Tag tag, Patience limit) {
+  Bytes bytes = read_piece(from, tag, limit);
+  std::size_t last = bytes.size();
+  while (last == piece) {
+    const Bytes more = read_piece(from, tag, limit);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    last = more.size();
   }
+  return bytes;
 }
 
 Bytes MpiRanks::take(int from, Tag tag, Patience limit) {
   check_whole();
-  wait(from, limit, [&] { return is_there(from, tag); });
-  return read(from, tag);
+  return read(from, tag, limit);
 }
 
 template <class Done>
@@ -303,11 +327,7 @@ std::vector<T> MpiRanks::combine(std::list<Reduction<T>>& kept, const std::vecto
   check(MPI_Iallreduce(reduction.given.data(), reduction.combined.data(), static_cast<int>(values.size()), type, operation, comm_,
                        &reduction.request),
         "MPI_Iallreduce");
-  wait(-1, Patience::limited, [&] {
-    int done = 0;
-    check(MPI_Test(&reduction.request, &done, MPI_STATUS_IGNORE), "MPI_Test");
-    return done != 0;
-  });
+  wait(-1, Patience::limited, [&] { return is_done(reduction.request); });
   std::vector<T> combined = std::move(reduction.combined);
   kept.pop_back();
   return combined;
@@ -318,7 +338,7 @@ void MpiRanks::look_for_trouble() {
   MPI_Status status;
   check(MPI_Iprobe(MPI_ANY_SOURCE, of_trouble, comm_, &there, &status), "MPI_Iprobe");
   if (there == 0) return;
-  const Bytes why = read(status.MPI_SOURCE, of_trouble);
+  const Bytes why = read(status.MPI_SOURCE, of_trouble, Patience::limited);
   failed_ = name_of(status.MPI_SOURCE) + " has stopped: " + std::string(why.begin(), why.end());
   throw Told(failed_);
 }
@@ -349,7 +369,7 @@ int MpiRanks::serve(const Work& work) {
       bool ends = false;
       wait(0, Patience::endless, [&] { return (ends = is_there(0, of_end)) || is_there(0, of_order); });
       if (ends) break;
-      post(0, of_reply, work(rank_, read(0, of_order)));
+      post(0, of_reply, work(rank_, read(0, of_order, Patience::endless)));
     }
   } catch (const Told&) {
     return wait_for_the_end();
@@ -363,7 +383,7 @@ int MpiRanks::serve(const Work& work) {
 /// mpirun ends all as soon as one exits with another code than 0, or without MPI_Finalize, and takes its time for it: that is left to
 /// rank 0, which is the last to exit.
 int MpiRanks::take_leave() {
-  read(0, of_end);
+  read(0, of_end, Patience::limited);
   post(0, of_farewell, {});
   finalize();
   return 0;
