@@ -285,7 +285,7 @@ std::string BagRun::save_anywhere(const std::string& wanted) {
       tried += (tried.empty() ? " nor in '" : " nor '") + folder.string() + "'";
     }
   }
-  throw Error(save_problem_ + "," + tried);
+  throw Error("the state could not be saved: " + save_problem_ + "," + tried);
 }
 
 void BagRun::report() const {
