@@ -142,7 +142,7 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   joins_surface_ = shifts() && accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph;
   begins_with_gradients_ = shifts() && scene.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume");
   add_options(rows.methods(scene), options_);
-  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && images_.empty() &&
+  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && !ghosts_ &&
       options_.at("THIN_WALLS") == 0)
     options_["BLOCK_LIST"] = listed_blocks_ = blocks_with_room(discretisation_);
   add_sources(rows.methods(scene), sources_);

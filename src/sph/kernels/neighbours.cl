@@ -62,7 +62,7 @@ typedef struct {
 
 // BLOCK_LIST, where it is defined, is how many blocks of candidates a tile has room for in a list, which the sweep over a state's gradients makes of those
 // that have a pair, and the sweeps over the same state go by: each tile's has their number, or −1 if they are not listed, and then one value for each.
-#if defined(BLOCK_LIST) && TILE_LANES > 1 && !IMAGES && !THIN_WALLS
+#if defined(BLOCK_LIST) && TILE_LANES > 1 && !GHOSTS && !THIN_WALLS
 #define HAS_BLOCK_LIST 1
 #define BLOCK_LIST_OF_TILE (blocks + (long)(BLOCK_LIST + 2) * get_global_id(0))
 #define USE_BLOCK_LIST(near) (near).blocks = BLOCK_LIST_OF_TILE;

@@ -89,14 +89,11 @@ INLINE void sweep_ghosts(sweep_t* sums, __constant const parameters_t* p, __glob
 }
 #endif
 
-INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
+// The tank itself, and the images that repeat it: one call, or the whole loop would be compiled twice.
+INLINE void sweep_repeated(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
   places_t at = sums->near.places;
-#if THIN_WALLS
-  for (int k = 0; k < TILE_OWN; ++k)
-    if (k < sums->near.own) sums->near.transparency[k] = transparency_at(p, sums->near.walls, at.x[k], at.y[k], at.z[k]);
-#endif
 #if IMAGES
-  for (int k = -1; k < p->images; ++k) {  // first the tank itself: one call, or the whole loop would be compiled twice
+  for (int k = -1; k < p->images; ++k) {
     if (k >= 0) {
       __global const real* image = images + k * IMAGE_COUNT;
       if (image[IMAGE_MIRRORED] > R(0.5) || !places_near_image(p, &sums->near, image)) continue;
@@ -104,16 +101,46 @@ INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __g
     }
     sweep_rows(sums, p, slot_start, &at);
   }
-#elif HAS_BLOCK_LIST && GOES_BY_BLOCKS
-#ifdef KEEPS_BLOCKS
-  list_blocks(&sums->near, p, slot_start, &at);
-#endif
-  if (sums->near.blocks[0] >= 0)
-    sweep_listed(sums, p, &at);
-  else
-    sweep_unlisted(sums, p, slot_start, &at);
 #else
   sweep_rows(sums, p, slot_start, &at);
+#endif
+}
+
+#if HAS_BLOCK_LIST && GOES_BY_BLOCKS
+#ifdef KEEPS_BLOCKS
+// Not of tiles beside an end that repeats itself, whose list would need to say which image a block is of.
+INLINE void keep_blocks(neighbours_t* near, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
+  near->blocks[0] = -1;
+#if IMAGES
+  for (int k = 0; k < p->images; ++k)
+    if (places_near_image(p, near, images + k * IMAGE_COUNT)) return;
+#endif
+  list_blocks(near, p, slot_start, &near->places);
+}
+#endif
+
+// Tiles in spray or beside an end that repeats itself, and those with more neighbours than the list has room for.
+SELDOM void sweep_unlisted(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
+  sweep_repeated(sums, p, slot_start, images);
+}
+#endif
+
+INLINE void sweep_particles(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, __global const real* images) {
+#if THIN_WALLS
+  const places_t at = sums->near.places;
+  for (int k = 0; k < TILE_OWN; ++k)
+    if (k < sums->near.own) sums->near.transparency[k] = transparency_at(p, sums->near.walls, at.x[k], at.y[k], at.z[k]);
+#endif
+#if HAS_BLOCK_LIST && GOES_BY_BLOCKS
+#ifdef KEEPS_BLOCKS
+  keep_blocks(&sums->near, p, slot_start, images);
+#endif
+  if (sums->near.blocks[0] >= 0)
+    sweep_listed(sums, p, &sums->near.places);
+  else
+    sweep_unlisted(sums, p, slot_start, images);
+#else
+  sweep_repeated(sums, p, slot_start, images);
 #endif
 #if GHOSTS
   sweep_ghosts(sums, p, slot_start, images);

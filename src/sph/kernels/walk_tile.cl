@@ -187,7 +187,6 @@ INLINE void sweep_rows(sweep_t* sums, __constant const parameters_t* p, __global
 // Of what lies about a tile the blocks that have a pair: what is added up then goes through them alone. None are listed of particles that do not lie together,
 // of which each has blocks of its own, nor where there are more than there is room for.
 INLINE void list_blocks(neighbours_t* near, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
-  near->blocks[0] = -1;
   box_t all;
   if (!lie_together(p, at, near->own, near->reach, &all)) return;
   const tile x = spread_own(at->x), y = spread_own(at->y), z = spread_own(at->z);
@@ -226,10 +225,5 @@ INLINE void sweep_listed(sweep_t* all_sums, __constant const parameters_t* p, co
     add_particle(&sums, p, j, rx, ry, rz, rx * rx + ry * ry + rz * rz + beyond_end(TILE_NEAR - block % TILE_NEAR));
   }
   *all_sums = sums;
-}
-
-// Tiles in spray, and those with more neighbours than the list has room for.
-SELDOM void sweep_unlisted(sweep_t* sums, __constant const parameters_t* p, __global const int* slot_start, const places_t* at) {
-  sweep_rows(sums, p, slot_start, at);
 }
 #endif
