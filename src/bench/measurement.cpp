@@ -85,7 +85,8 @@ SweepRate sweep_rate(const SweepCost& cost, const std::vector<Block>& blocks) {
 }  // namespace
 
 bool is_evaluation(const std::string& kernel) {
-  return kernel == "momentum" || kernel == "rates_of_state" || kernel == "continuity" || kernel == "gradients" || kernel == "wall_loads";
+  return kernel == "momentum" || kernel == "rates_of_state" || kernel == "continuity" || kernel == "gradients" ||
+         kernel == "surroundings" || kernel == "wall_loads";
 }
 
 Measurement summarised(const BenchCase& bench_case, std::size_t particles, const std::vector<Block>& blocks) {

@@ -123,7 +123,11 @@ class MpiRanks final : public Ranks, private Group {
     std::vector<T> given, combined;
     MPI_Request request = MPI_REQUEST_NULL;
   };
-  enum class Patience { limited, endless };
+  enum class Patience {
+    limited,
+    of_message,
+    endless
+  };  ///< that of a message which has begun: it may take its time though the run shall end
 
   void send(int to, Bytes bytes) override { post(to, of_group, std::move(bytes)); }
   Bytes receive(int from) override { return take(from, of_group, Patience::limited); }
@@ -266,7 +270,7 @@ Bytes MpiRanks::read_piece(int from, Tag tag, Patience limit) {
   check(MPI_Get_count(&status, MPI_BYTE, &count), "MPI_Get_count");
   const auto coming = coming_.insert(coming_.end(), Coming{Bytes(static_cast<std::size_t>(count)), MPI_REQUEST_NULL});
   check(MPI_Irecv(coming->bytes.data(), count, MPI_BYTE, from, tag, comm_, &coming->request), "MPI_Irecv");
-  wait(from, limit, [&] { return is_done(coming->request); });
+  wait(from, Patience::of_message, [&] { return is_done(coming->request); });
   Bytes bytes = std::move(coming->bytes);
   coming_.erase(coming);
   return bytes;
@@ -309,7 +313,7 @@ void MpiRanks::wait(int whom, Patience limit, const Done& done) {
       const double ending = heard ? std::chrono::duration<double>(Clock::now() - heard_at).count() : 0;
       const std::string who = whom < 0 ? "a part of the water" : name_of(whom);
       const bool is_seen = whom >= 0 ? is_visible_[whom] : std::find(is_visible_.begin(), is_visible_.end(), false) == is_visible_.end();
-      if (limit == Patience::limited && waiting.seconds() > patience) stop(who + " has not answered for 300 s");
+      if (limit != Patience::endless && waiting.seconds() > patience) stop(who + " has not answered for 300 s");
       if (limit == Patience::limited && ending > (is_seen ? patience_with_living : patience_when_ending))
         stop(who + " has not answered since the run was asked to end");
     }
@@ -383,7 +387,10 @@ int MpiRanks::serve(const Work& work) {
 /// mpirun ends all as soon as one exits with another code than 0, or without MPI_Finalize, and takes its time for it: that is left to
 /// rank 0, which is the last to exit.
 int MpiRanks::take_leave() {
-  read(0, of_end, Patience::limited);
+  try {
+    read(0, of_end, Patience::limited);
+  } catch (const std::exception&) {  // of others' trouble, which rank 0 knows of
+  }
   post(0, of_farewell, {});
   finalize();
   return 0;
@@ -422,7 +429,7 @@ int MpiRanks::end(int code) {
   for (Waiting waiting; !awaited.empty() && waiting.seconds() < patience_with_living; waiting.rest()) {
     try {
       look_for_trouble();
-    } catch (const Told& trouble) {
+    } catch (const std::exception& trouble) {
       if (was_whole) log(LogLevel::error, trouble.what());
     }
     awaited.erase(std::remove_if(awaited.begin(), awaited.end(), has_left), awaited.end());

@@ -142,8 +142,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   joins_surface_ = shifts() && accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph;
   begins_with_gradients_ = shifts() && scene.numerics.integrator == Integrator::symplectic && fields_.has(ParticleArray::rates, "volume");
   add_options(rows.methods(scene), options_);
-  if (accelerates_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 && !ghosts_ &&
-      options_.at("THIN_WALLS") == 0)
+  // a list must be of the very state that a sweep goes over: where gradients are found for both rates
+  if (accelerates_by_gradients_ && compresses_by_gradients_ && scene.numerics.gradients == Gradients::sph && tiling_.particles.near > 1 &&
+      !ghosts_ && options_.at("THIN_WALLS") == 0)
     options_["BLOCK_LIST"] = listed_blocks_ = blocks_with_room(discretisation_);
   add_sources(rows.methods(scene), sources_);
   sources_["parameters.cl"] = parameters_header(rows.parameters);

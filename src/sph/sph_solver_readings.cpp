@@ -68,7 +68,8 @@ std::vector<PointValue> SphSolver<Real>::evaluate(const PointSet& set) {
 
 template <class Real>
 std::vector<WallWrench> SphSolver<Real>::wrenches() {
-  if (accelerates_by_gradients_ && !gradients_are_held_) find_gradients(Slot::now);
+  // those of a step that begins with new ones are not kept: whether they are there may depend on other readings
+  if (accelerates_by_gradients_ && (!gradients_are_held_ || begins_with_gradients_)) find_gradients(Slot::now);
   load_walls(Slot::now);  // at this instant; the step found its own in its middle
   std::vector<int> owners(centres_.size());
   std::iota(owners.begin(), owners.end(), 0);

@@ -97,7 +97,9 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const bool counts = next_id >= 0 && next_id <= most_ids;
   if (!ascending || !counts || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
     throw Error("the snapshot's particles are not those of this case: their ids are others.");
-  const bool with_gradients = holds_gradients_ && blocks.has(gradient_block(0));
+  const bool with_gradients = holds_gradients_ && blocks.has(gradient_block(0)) && (!joins_surface_ || blocks.has(surroundings_block(0)));
+  for (int k = 0; holds_gradients_ && !with_gradients && k < gradient_count(); ++k)
+    names.push_back(gradient_block(k));  // of an older version
   const std::vector<SavedComponent> components = saved_components(with_gradients);
   std::vector<std::vector<Real>> values;  // of each
   for (const SavedComponent& saved : components) {

@@ -300,7 +300,7 @@ class Server(WithBag):
         self.assertIn("there is no bag", self.refused(self.bag + ".not", "--port", "0"))
         dry = self.bag + ".dry.bag"
         write_bag(dry, clouds=False)
-        self.assertIn("no point clouds: write it with wavetank_run --clouds", self.refused(dry, "--port", "0"))
+        self.assertIn("no water to show: write it with wavetank_run --clouds", self.refused(dry, "--port", "0"))
         short = self.bag + ".short.bag"
         for topic, message in (("markers", MarkerArray([Marker()])), ("surface_mesh", Marker()), ("probes", ProbeArray(names=["P1"]))):
             shutil.copy(self.bag, short)

@@ -39,8 +39,9 @@ std::vector<Real> found_for(EquationOfState equation, const std::vector<Real>& c
   files["sizes.cl"] = sizes_header();
   files["fields.cl"] = FieldTable(rows.fields).header();
   files["there_and_back.cl"] = there_and_back;
-  const std::string options = "-DDIMENSIONS=2 -DTILE_OWN=1 -DTILE_NEAR=1 -DUSE_DOUBLE=" + std::to_string(sizeof(Real) == sizeof(double) ? 1 : 0) +
-                              " -cl-fast-relaxed-math";
+  const std::string options =
+      "-DDIMENSIONS=2 -DTILE_OWN=1 -DTILE_NEAR=1 -DUSE_DOUBLE=" + std::to_string(sizeof(Real) == sizeof(double) ? 1 : 0) +
+      " -cl-fast-relaxed-math";
   const compute::Program program(test_device(), files, "there_and_back.cl", options);
   const compute::Buffer<Real> given(test_device(), compressions);
   compute::Buffer<Real> found(test_device(), compressions.size());

@@ -10,10 +10,14 @@
 namespace wavetank {
 
 /// Those that a step is to begin with: of the state that the snapshot was of.
+inline void remove_components(SnapshotBlocks& blocks, const std::string& array) {
+  for (int k = 0; k < 20; ++k)
+    if (blocks.has(array + std::to_string(k))) blocks.remove(array + std::to_string(k));
+}
+
 inline void remove_gradients(SnapshotBlocks& blocks) {
-  for (const std::string array : {"particles: gradient ", "particles: surroundings "})
-    for (int k = 0; k < 20; ++k)
-      if (blocks.has(array + std::to_string(k))) blocks.remove(array + std::to_string(k));
+  remove_components(blocks, "particles: gradient ");
+  remove_components(blocks, "particles: surroundings ");
 }
 
 /// The bytes of a solver's state, by field and particle's id.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """SPHERIC 2 by every method that changes what its probes read, and a table of it: usage: pressures.py WAVETANK_RUN CASE FIGURES FOLDER [SPACING [ROW]...]
 
-A row is a name of ROWS, or `terms`, `schemes` or `all` of them. Each run's samples are kept in FOLDER, and a run that is there is not made again; the table
+A row is a name of ROWS, or `terms`, `schemes` or `all_rows`. Each run's samples are kept in FOLDER, and a run that is there is not made again; the table
 tells by which version each was made."""
 
 import csv

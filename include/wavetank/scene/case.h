@@ -11,7 +11,8 @@
 #include "wavetank/scene/methods.h"
 
 /// A case: everything that a simulation is made from, as plain structs in SI units. z is up; a 2-D case lies in the x–z plane (y = 0).
-/// The defaults here are the only place where defaults are stated.
+/// The defaults here are the only place where defaults are stated, but for those that depend on other keys: of the acoustic damper and of
+/// what dissipates (the reader of case files sets them).
 namespace wavetank {
 
 using Eigen::Vector3d;

@@ -35,9 +35,13 @@ Schedule of_integrator(Integrator integrator, StepEngine* engine) {
 
 Schedule schedule_of(const Case& scene, StepEngine* engine) {
   Schedule schedule = of_integrator(scene.numerics.integrator, engine);
-  if (scene.numerics.shifting != Shifting::none)
-    schedule.begin_with({"shifts by " + word_of(scene.numerics.shifting), state_of("now") + at("now", {"walls"}), at("now", {"shift"}),
+  if (scene.numerics.shifting != Shifting::none) {
+    // where volumes follow the shifts, a step does not begin with rates by the last one's
+    const bool anew = scene.numerics.scheme == Scheme::riemann_ale && scene.numerics.integrator == Integrator::symplectic;
+    schedule.begin_with({"shifts by " + word_of(scene.numerics.shifting), state_of("now") + at("now", {"walls"}),
+                         at("now", anew ? std::vector<std::string>{"shift", "compression rate"} : std::vector<std::string>{"shift"}),
                          [engine] { engine->find_shifts(); }, 0, true});
+  }
   if (!scene.openings.empty())
     schedule.begin_with({"water behind openings", state_of("now"), at("now", {"velocity", "compression", "pressure", "volume"}),
                          [engine] { engine->impose_zones(); }});

@@ -13,7 +13,7 @@ PORT, CLIENTS = 8780, 8
 
 def read_arguments(arguments):
     parser = argparse.ArgumentParser(prog="web", description="Shows a wave tank in the browser: one that runs, or a bag. Ctrl-C ends it.")
-    parser.add_argument("bag", nargs="?", help="written by wavetank_run --clouds; without, the tank that runs")
+    parser.add_argument("bag", nargs="?", help="written by wavetank_run with --clouds, --particles or --surface; without, the tank that runs")
     parser.add_argument("--tank", default="/wavetank", help="name of the tank's node (default /wavetank)")
     parser.add_argument("-n", "--namespace", help="of the tank, if the bag holds several (/wavetank)")
     parser.add_argument("--port", type=int, default=PORT, help="(default %d; 0: any that is free)" % PORT)

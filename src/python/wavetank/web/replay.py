@@ -38,7 +38,10 @@ class Replay:
         self._surface, self._spray = self._split_surface()
         self.waters = list(self._clouds) + (["surface"] if self._surface else [])
         if not self.waters:
-            raise Failure("'%s' holds no point clouds: write it with wavetank_run --clouds, or record:=true clouds:=true of a launch file" % path)
+            raise Failure(
+                "'%s' holds no water to show: write it with wavetank_run --clouds, --particles or --surface, or record:=true clouds:=true of a launch file"
+                % path
+            )
         self._case = read_case(self._recording.text("case"))
         odometry = [self._recording.table(name) for name in self._recording.names if name.endswith("/odom")]
         self._poses = {table.name.split("/")[1]: Pose(table) for table in odometry if len(table)}
