@@ -273,6 +273,11 @@ Section<NumericsCase> numerics_section() {
       "Damped time before the start, in which the water comes to rest with its free sides held; H is its greatest depth. 0 leaves it out.");
   Section<NumericsCase> section;
   section.key("scheme", &NumericsCase::scheme, method<Scheme>(), "", meanings<Scheme>("The SPH scheme"));
+  section.key_where(
+      [](const NumericsCase& numerics) { return numerics.scheme != Scheme::delta_sph; }, "limiter", &NumericsCase::limiter,
+      number(between(1, 2)), "",
+      "θ of the limiter of Riemann schemes, minmod of what the gradients say and θ times the difference: 1 diffuses most and "
+      "keeps impacts calm; with 2, values between two particles go as far as those of the other, and smooth flows lose least.");
   section.key("gradients", &NumericsCase::gradients, method<Gradients>(), "", meanings<Gradients>("How derivatives are found"));
   section.key_where([](const NumericsCase& numerics) { return numerics.gradients != Gradients::sph; }, "mls", &NumericsCase::mls,
                     section_of(least_squares_section()), "", "Moving least squares, of `gradients` other than `sph`.");

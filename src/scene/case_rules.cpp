@@ -412,6 +412,11 @@ void check_case(const Case& read, const Setting& root) {
     if (numerics != nullptr && numerics->find("smagorinsky_coefficient") != nullptr)
       clash(root, "numerics/smagorinsky_coefficient", "of numerics/turbulence: smagorinsky only; leave it out, or set that");
   }
+  if (read.numerics.scheme == Scheme::delta_sph) {
+    const Setting* numerics = root.find("numerics");
+    if (numerics != nullptr && numerics->find("limiter") != nullptr)
+      clash(root, "numerics/limiter", "of the schemes riemann_parshikov and riemann_ale only; leave it out, or choose one of them");
+  }
   if (read.fluid.fill.empty() && read.openings.empty())
     refuse(nearest_setting(root, "fluid/fill"), {"fluid/fill", ""}, "a list of at least one region, where there are no openings");
   check_walls(read, root);

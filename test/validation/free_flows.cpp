@@ -2,10 +2,10 @@
 //   free_flows FLOW WORD=VALUE...
 // FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
 // Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows
-// (10), alpha (artificial viscosity of delta_sph, 0.01), sound (c₀ over the greatest speed, 10), precision, fields (a name: x, z and
-// pressure of every particle are written to NAME_T.csv at every `field_rows`th row); and any of the case's method words as KEY=WORD:
-// scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator, equation_of_state (cole),
-// density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
+// (10), alpha (artificial viscosity of delta_sph, 0.01), limiter (of Riemann schemes, 1), sound (c₀ over the greatest speed, 10),
+// precision, fields (a name: x, z and pressure of every particle are written to NAME_T.csv at every `field_rows`th row); and any of the
+// case's method words as KEY=WORD: scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator,
+// equation_of_state (cole), density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -132,6 +132,7 @@ void run(const Flow& flow, const Words& words, Precision precision) {
   numerics.courant = 1.5;
   choose(words, "scheme", numerics.scheme);
   const bool riemann = numerics.scheme != Scheme::delta_sph;
+  numerics.limiter = number(words, "limiter", 1);
   choose(words, "gradients", numerics.gradients);
   choose(words, "pressure", numerics.mls.pressure);
   choose(words, "viscosity_model", numerics.viscosity_model);

@@ -454,6 +454,7 @@ struct LeastSquaresCase {
 
 struct NumericsCase {
   Scheme scheme = Scheme::delta_sph;
+  double limiter = 1.0;  ///< θ of Riemann schemes' limiter, from 1 to 2
   Gradients gradients = Gradients::sph;
   LeastSquaresCase mls;
   std::optional<double> support;  ///< R/Δx; none = 4 in 2-D, 3 in 3-D

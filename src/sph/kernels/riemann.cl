@@ -1,5 +1,5 @@
 // The Riemann problem between a particle (left) and its neighbour (right) along the line between them, acoustic, with values at the midpoint by MUSCL: each
-// side's own renormalised gradient, limited by minmod against the difference of the two. Of velocities what is along that line is reconstructed and limited,
+// side's own renormalised gradient, limited by minmod against θ times the difference of the two, θ from 1 to 2. Of velocities what is along that line is reconstructed and limited,
 // whatever the axes are. Linear fields have no jump. Of compressions what hydrostatics explains is not limited: in disordered water at rest the limiter would
 // take of each difference more often than add to it, and so carry compression upwards and sink the water. For schemes; [S] of docs/numerics.md leaves the
 // solver and the limiter's arguments open.
@@ -114,7 +114,7 @@ INLINE star_t riemann_of(const scheme_own_t* own, __constant const parameters_t*
   near_change += slope.y * pair->ry;
 #endif
   const tile explained = explained_difference(&own->hydrostatics, pair);
-  const limits_t most = limits_of(difference - explained), most_approach = limits_of(pair->approach);
+  const limits_t most = limits_of(p->limiter * (difference - explained)), most_approach = limits_of(p->limiter * pair->approach);
   const tile s_left = own->compression + R(0.5) * (explained + minmod(&most, own_change - explained));
   const tile s_right = near - R(0.5) * (explained + minmod(&most, near_change - explained));
   star_t star;

@@ -13,6 +13,7 @@ Method riemann_parshikov(const Case& scene) {
   method.needs_velocity_gradient = walls.method == WallMethod::ghost && walls.slip == Slip::no_slip;
   method.needs_strain_rate = !method.needs_velocity_gradient;
   method.accelerates_by_gradients = true;
+  method.parameters = {{"limiter", "", "θ of minmod", [](const ParameterSource& s) { return s.scene.numerics.limiter; }}};
   return method;
 }
 
@@ -24,8 +25,8 @@ Method riemann_ale(const Case& scene) {
   method.needs_shepard_factors = true;
   method.fields = {
       {ParticleArray::state, {"volume"}, "m³", "that evolves; the mass follows from it", true, FieldRow::Evolution::conjugate}};
-  method.parameters = {{"cell_volume", "m³", "Δx^d",
-                        [](const ParameterSource& s) { return std::pow(s.discretisation.spacing, s.discretisation.dimensions); }}};
+  method.parameters.push_back({"cell_volume", "m³", "Δx^d",
+                               [](const ParameterSource& s) { return std::pow(s.discretisation.spacing, s.discretisation.dimensions); }});
   const std::string relative = "state[FIELD_VOLUME * stride + i] / p->cell_volume";
   method.reports = {{"largest_volume", ReportRow::Kind::greatest, "Δx^d", "of a particle", relative},
                     {"volumes_beyond", ReportRow::Kind::count, "", "below half or above twice that of a lattice",

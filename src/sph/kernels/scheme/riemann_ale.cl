@@ -21,8 +21,8 @@ INLINE tile_vector_t shift_of(const neighbours_t* n, int j) {
 #endif
 
 // A component of u_l − u_i or, from the other side, of u_r − u_i.
-INLINE tile side_of_middle(tile from_own, tile own_change, tile near_change, tile difference) {
-  const limits_t most = limits_of(difference);
+INLINE tile side_of_middle(__constant const parameters_t* p, tile from_own, tile own_change, tile near_change, tile difference) {
+  const limits_t most = limits_of(p->limiter * difference);
   const tile left = R(0.5) * minmod(&most, own_change), right = difference - R(0.5) * minmod(&most, near_change);
   return right + from_own * (left - right);
 }
@@ -42,13 +42,13 @@ INLINE exchange_t pair_exchange(const scheme_own_t* own, __constant const parame
   // the mass comes from the side that the middle leaves behind, with its velocity across the line of centres
   const tile from_own = one_above(crossing, (tile)(R(0.0)));
   const tile_vector_t far_change = neighbour_velocity_change(n, gradient, pair->j, pair->rx, pair->ry, pair->rz);
-  const tile ux = side_of_middle(from_own, tile_dot(own->slope_u, way), far_change.x, pair->relative.x);
+  const tile ux = side_of_middle(p, from_own, tile_dot(own->slope_u, way), far_change.x, pair->relative.x);
 #if DIMENSIONS == 3
-  const tile uy = side_of_middle(from_own, tile_dot(own->slope_v, way), far_change.y, pair->relative.y);
+  const tile uy = side_of_middle(p, from_own, tile_dot(own->slope_v, way), far_change.y, pair->relative.y);
 #else
   const tile uy = (tile)(R(0.0));
 #endif
-  const tile uz = side_of_middle(from_own, tile_dot(own->slope_w, way), far_change.z, pair->relative.z);
+  const tile uz = side_of_middle(p, from_own, tile_dot(own->slope_w, way), far_change.z, pair->relative.z);
   const tile inverse = R(1.0) / (pair->r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length);
   const tile along = (star.advance - tile_dot(way, make_tile_vector(ux, uy, uz))) * inverse;
   exchange_t exchange;
