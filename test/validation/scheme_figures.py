@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the free flows of the particle shifting paper (free_flows) and makes their plots and tables: figures 1 to 18.
 
-scheme_figures.py PROGRAM FOLDER taylor_green|rotating_square [N]... keeps each run's table in FOLDER; what is there already is not run again.
+scheme_figures.py PROGRAM FOLDER taylor_green|shifting_laws|rotating_square [N]... keeps each run's table in FOLDER; what is there already is not run again.
 """
 import glob
 import math
@@ -136,10 +136,9 @@ def taylor_green(runs, sides):
             ["carried along by 2 U", "%.4f" % mean(carried, "mean_shift", 0.25, 0.5), "%.5f" % at(carried, "energy", 0.1)],
         ],
     )
-    laws(runs, sides)
 
 
-def laws(runs, sides):
+def shifting_laws(runs, sides):
     """Figures 10 to 13, by Vila's scheme."""
     figure, axes = plt.subplots(2, 3, figsize=(15, 8))
     lines = []
@@ -255,12 +254,13 @@ def square_fields(runs, sides):
 
 
 def main():
-    if len(sys.argv) < 4 or sys.argv[3] not in ("taylor_green", "rotating_square"):
+    flows = {"taylor_green": taylor_green, "shifting_laws": shifting_laws, "rotating_square": rotating_square}
+    if len(sys.argv) < 4 or sys.argv[3] not in flows:
         print(__doc__, file=sys.stderr)
         return 2
     runs = Runs(sys.argv[1], sys.argv[2])
     sides = [int(n) for n in sys.argv[4:]] or [50, 100]
-    {"taylor_green": taylor_green, "rotating_square": rotating_square}[sys.argv[3]](runs, sides)
+    flows[sys.argv[3]](runs, sides)
     return 0
 
 
