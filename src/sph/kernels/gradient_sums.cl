@@ -14,13 +14,12 @@ typedef struct {
 #endif
 } gradient_sums_t;
 
-INLINE gradient_sums_t gradient_sums_of(__global const real* state, long stride, int first) {
-  gradient_sums_t sums = {{0}};
-  sums.own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
+// Of sums that are 0.
+INLINE void start_gradients(gradient_sums_t* a, __global const real* state, long stride, int first) {
+  a->own[0] = own_values(state + FIELD_COMPRESSION * stride, first);
 #if VELOCITIES
-  for (int axis = 0; axis < 3; ++axis) sums.own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
+  for (int axis = 0; axis < 3; ++axis) a->own[1 + axis] = own_values(state + (FIELD_U + axis) * stride, first);
 #endif
-  return sums;
 }
 
 // Σ of a difference times ∇W V, of which (wx, wy, wz) is V ∇W. δ-SPH keeps the order of products that it has always had.
@@ -173,20 +172,18 @@ INLINE void finish_gradients(__constant const parameters_t* p, const gradient_su
 }
 
 // With what there is of walls where it is swept for, and far from any.
-INLINE gradient_walls_t walls_of_gradients(__constant const parameters_t* p, const gradient_own_t* own, __global const real* images, int k, real x, real y,
-                                           real z) {
-  gradient_walls_t b = {R(1.0), p->support};
-#if GRADIENTS_AND_SHEPARD
-#if SHEPARD_VOLUMETRIC
-  b.shepard = own->shepard[k];
+INLINE void start_walls_of_gradients(gradient_walls_t* b, __constant const parameters_t* p, const gradient_own_t* own, __global const real* images, int k,
+                                     real x, real y, real z) {
+#if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
+  b->shepard = own->shepard[k];
 #else
-  b.shepard = SHEPARD_START;
-#endif
+  b->shepard = SHEPARD_START;
 #endif
 #if GHOSTS && EDDIES
-  b.clearance = distance_from_planes(p, images, x, y, z);
+  b->clearance = distance_from_planes(p, images, x, y, z);
+#else
+  b->clearance = p->support;
 #endif
-  return b;
 }
 
 // Of particle i, the k-th of its tile.

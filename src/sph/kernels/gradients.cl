@@ -45,7 +45,7 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   USE_BLOCK_LIST(a.near)
-  a.gradients = gradient_sums_of(state, stride, first);
+  start_gradients(&a.gradients, state, stride, first);
   sweep_particles(&a, p, slot_start, images);
   symmetric_t water[TILE_OWN];
   finish_moments(&a.moments, water);
@@ -53,7 +53,8 @@ __kernel void gradients(__constant const parameters_t* p, int count, __global co
   finish_gradients(p, &a.gradients, water, &own);
   for (int k = 0; k < a.near.own; ++k) {
     const real x = a.near.places.x[k], y = a.near.places.y[k], z = a.near.places.z[k];
-    gradient_walls_t by_walls = walls_of_gradients(p, &own, images, k, x, y, z);
+    gradient_walls_t by_walls;
+    start_walls_of_gradients(&by_walls, p, &own, images, k, x, y, z);
 #if GRADIENTS_ASK_WALLS && !GHOSTS
     wall_sweep_t b = {&walls, by_walls};
     stand_at(&walls, state, stride, first + k);

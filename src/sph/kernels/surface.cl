@@ -42,7 +42,7 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   USE_BLOCK_LIST(a.near)
-  a.surface = surface_sums_of(state, stride, first);
+  start_surface(&a.surface, state, stride, first);
   sweep_particles(&a, p, slot_start, images);
   write_sums_of_law(&a.surface, around + first, stride, a.near.own);
   surface_own_t own;
@@ -51,7 +51,9 @@ __kernel void surface_normals(__constant const parameters_t* p, int count, __glo
   finish_moments(&a.moments, water);
   for (int k = 0; k < a.near.own; ++k) {
     const int i = first + k;
-    wall_sweep_t b = {&walls, no_walls_of_surface()};
+    wall_sweep_t b = {0};
+    b.walls = &walls;
+    b.surface.shepard = R(1.0);
 #if !GHOSTS
     stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);

@@ -23,17 +23,16 @@ typedef struct {
 #endif
 } surface_sums_t;
 
-INLINE surface_sums_t surface_sums_of(__global const real* state, long stride, int first) {
-  surface_sums_t sums = {0};
+// Of sums that are 0.
+INLINE void start_surface(surface_sums_t* a, __global const real* state, long stride, int first) {
 #if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  sums.u = own_values(state + FIELD_U * stride, first);
-  sums.v = own_values(state + FIELD_V * stride, first);
-  sums.w = own_values(state + FIELD_W * stride, first);
+  a->u = own_values(state + FIELD_U * stride, first);
+  a->v = own_values(state + FIELD_V * stride, first);
+  a->w = own_values(state + FIELD_W * stride, first);
 #endif
 #if SHIFT_SMOOTHS
-  sums.compression = own_values(state + FIELD_COMPRESSION * stride, first);
+  a->compression = own_values(state + FIELD_COMPRESSION * stride, first);
 #endif
-  return sums;
 }
 
 // (wx, wy, wz) is V ∇W, but for its factor; `slope_volume` that over r.
@@ -85,12 +84,6 @@ typedef struct {
   real xx, xy, xz, yy, yz, zz;  // of ∫ (y − x) ⊗ n W dS, its symmetric part
   real weight, shepard;
 } surface_walls_t;
-
-INLINE surface_walls_t no_walls_of_surface() {
-  surface_walls_t none = {0};
-  none.shepard = R(1.0);
-  return none;
-}
 
 INLINE void add_wall_to_surface(surface_walls_t* a, const contact_t* c) {
   a->shepard += c->shepard;  // whatever factor the case has: of λ this is a part

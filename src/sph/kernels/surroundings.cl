@@ -47,8 +47,8 @@ __kernel void surroundings(__constant const parameters_t* p, int count, __global
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
   USE_BLOCK_LIST(a.near)
-  a.gradients = gradient_sums_of(state, stride, first);
-  a.surface = surface_sums_of(state, stride, first);
+  start_gradients(&a.gradients, state, stride, first);
+  start_surface(&a.surface, state, stride, first);
   sweep_particles(&a, p, slot_start, images);
   write_sums_of_law(&a.surface, around + first, stride, a.near.own);
   symmetric_t water[TILE_OWN];
@@ -59,7 +59,10 @@ __kernel void surroundings(__constant const parameters_t* p, int count, __global
   finish_surface(&a.surface, &surface_own);
   for (int k = 0; k < a.near.own; ++k) {
     const real x = a.near.places.x[k], y = a.near.places.y[k], z = a.near.places.z[k];
-    wall_sweep_t b = {&walls, walls_of_gradients(p, &gradients_own, images, k, x, y, z), no_walls_of_surface()};
+    wall_sweep_t b = {0};
+    b.walls = &walls;
+    b.surface.shepard = R(1.0);
+    start_walls_of_gradients(&b.gradients, p, &gradients_own, images, k, x, y, z);
 #if !GHOSTS
     stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
