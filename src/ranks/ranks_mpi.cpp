@@ -124,10 +124,10 @@ class MpiRanks final : public Ranks, private Group {
     MPI_Request request = MPI_REQUEST_NULL;
   };
   enum class Patience {
-    limited,
-    of_message,
+    limited,     ///< less once the run shall end
+    of_message,  ///< of one that has begun: it may take its time even then
     endless
-  };  ///< that of a message which has begun: it may take its time though the run shall end
+  };
 
   void send(int to, Bytes bytes) override { post(to, of_group, std::move(bytes)); }
   Bytes receive(int from) override { return take(from, of_group, Patience::limited); }

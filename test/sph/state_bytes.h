@@ -9,12 +9,13 @@
 
 namespace wavetank {
 
-/// Those that a step is to begin with: of the state that the snapshot was of.
+/// All blocks of an array.
 inline void remove_components(SnapshotBlocks& blocks, const std::string& array) {
   for (int k = 0; k < 20; ++k)
     if (blocks.has(array + std::to_string(k))) blocks.remove(array + std::to_string(k));
 }
 
+/// Those that a step is to begin with, and what was found with them: of the state that the snapshot was of.
 inline void remove_gradients(SnapshotBlocks& blocks) {
   remove_components(blocks, "particles: gradient ");
   remove_components(blocks, "particles: surroundings ");

@@ -22,37 +22,36 @@ INLINE void start_gradients(gradient_sums_t* a, __global const real* state, long
 #endif
 }
 
-// Σ of a difference times ∇W V, of which (wx, wy, wz) is V ∇W. δ-SPH keeps the order of products that it has always had.
-INLINE void add_difference(gradient_sums_t* a, int of, tile slope_volume, tile difference, tile rx, tile ry, tile rz, tile wx, tile wy, tile wz) {
+// Σ of a difference times V ∇W. δ-SPH keeps the order of products that it has always had.
+INLINE void add_difference(gradient_sums_t* a, int of, const slope_t* s, tile difference) {
 #if HAS_BLOCK_LIST
-  a->sum_x[of] += difference * wx;
-  a->sum_z[of] += difference * wz;
+  a->sum_x[of] += difference * s->x;
+  a->sum_z[of] += difference * s->z;
 #if DIMENSIONS == 3
-  a->sum_y[of] += difference * wy;
+  a->sum_y[of] += difference * s->y;
 #endif
 #else
-  const tile weighted = slope_volume * difference;
-  a->sum_x[of] += weighted * rx;
-  a->sum_z[of] += weighted * rz;
+  const tile weighted = s->over_distance * difference;
+  a->sum_x[of] += weighted * s->rx;
+  a->sum_z[of] += weighted * s->rz;
 #if DIMENSIONS == 3
-  a->sum_y[of] += weighted * ry;
+  a->sum_y[of] += weighted * s->ry;
 #endif
 #endif
 }
 
-INLINE void add_to_gradients(gradient_sums_t* a, __constant const parameters_t* p, const neighbours_t* n, int j, tile rx, tile ry, tile rz, tile distance,
-                             tile volume, tile slope_volume, tile wx, tile wy, tile wz) {
+INLINE void add_to_gradients(gradient_sums_t* a, __constant const parameters_t* p, const neighbours_t* n, const slope_t* s) {
 #if GRADIENTS_AND_SHEPARD && SHEPARD_VOLUMETRIC
-  a->shepard += kernel_values(p, distance) * volume;
+  a->shepard += kernel_values(p, s->distance) * s->volume;
 #endif
-  add_difference(a, 0, slope_volume, neighbour_compression(n, p, j, rx, ry, rz) - a->own[0], rx, ry, rz, wx, wy, wz);
+  add_difference(a, 0, s, neighbour_compression(n, p, s->j, s->rx, s->ry, s->rz) - a->own[0]);
 #if VELOCITIES
-  const tile_vector_t velocity = neighbour_velocity(n, j);
-  add_difference(a, 1, slope_volume, velocity.x - a->own[1], rx, ry, rz, wx, wy, wz);
+  const tile_vector_t velocity = neighbour_velocity(n, s->j);
+  add_difference(a, 1, s, velocity.x - a->own[1]);
 #if DIMENSIONS == 3
-  add_difference(a, 2, slope_volume, velocity.y - a->own[2], rx, ry, rz, wx, wy, wz);
+  add_difference(a, 2, s, velocity.y - a->own[2]);
 #endif
-  add_difference(a, 3, slope_volume, velocity.z - a->own[3], rx, ry, rz, wx, wy, wz);
+  add_difference(a, 3, s, velocity.z - a->own[3]);
 #endif
 }
 

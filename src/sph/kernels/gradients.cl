@@ -28,12 +28,9 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #endif
 
 INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, tile rx, tile ry, tile rz, tile r2) {
-  const tile distance = sqrt(r2);
-  const tile volume = near_volume(&a->near, j);
-  const tile slope_volume = kernel_slopes(p, distance) * volume;
-  const tile wx = slope_volume * rx, wy = slope_volume * ry, wz = slope_volume * rz;
-  add_to_gradients(&a->gradients, p, &a->near, j, rx, ry, rz, distance, volume, slope_volume, wx, wy, wz);
-  add_to_moments(&a->moments, rx, ry, rz, wx, wy, wz);
+  const slope_t slope = slope_of(p, &a->near, j, rx, ry, rz, r2);
+  add_to_gradients(&a->gradients, p, &a->near, &slope);
+  add_to_moments(&a->moments, &slope);
 }
 
 #include "sweep.cl"

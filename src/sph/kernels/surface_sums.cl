@@ -35,19 +35,17 @@ INLINE void start_surface(surface_sums_t* a, __global const real* state, long st
 #endif
 }
 
-// (wx, wy, wz) is V ∇W, but for its factor; `slope_volume` that over r.
-INLINE void add_to_surface(surface_sums_t* a, __constant const parameters_t* p, const neighbours_t* n, int j, tile rx, tile ry, tile rz, tile r2, tile distance,
-                           tile volume, tile slope_volume, tile wx, tile wy, tile wz) {
-  a->sum_x += wx;
-  a->sum_z += wz;
+INLINE void add_to_surface(surface_sums_t* a, __constant const parameters_t* p, const neighbours_t* n, const slope_t* s) {
+  a->sum_x += s->x;
+  a->sum_z += s->z;
 #if DIMENSIONS == 3
-  a->sum_y += wy;
+  a->sum_y += s->y;
 #endif
 #if SHEPARD_VOLUMETRIC
-  a->shepard += kernel_values(p, distance) * volume;
+  a->shepard += kernel_values(p, s->distance) * s->volume;
 #endif
 #if SHIFT_BY_APPROACH || SHIFT_SMOOTHS
-  const pair_t pair = pair_of(n, j, rx, ry, rz, r2, distance, slope_volume, a->u, a->v, a->w);
+  const pair_t pair = pair_of(n, s->j, s->rx, s->ry, s->rz, s->r2, s->distance, s->over_distance, a->u, a->v, a->w);
 #endif
 #if SHIFT_BY_APPROACH
 #if GHOSTS
@@ -55,23 +53,23 @@ INLINE void add_to_surface(surface_sums_t* a, __constant const parameters_t* p, 
 #endif
   {
     // of the water within the support alone; nothing is at r = 0 but the particle itself
-    const tile within = one_above(slope_volume, (tile)(R(0.0)));
-    a->approach = fmax(a->approach, within * pair.approach * pair.approach / (r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length));
+    const tile within = one_above(s->over_distance, (tile)(R(0.0)));
+    a->approach = fmax(a->approach, within * pair.approach * pair.approach / (s->r2 + R(1.0e-12) * p->smoothing_length * p->smoothing_length));
   }
 #endif
 #if SHIFT_TENSILE
   // bounded: numbers too small for the processor's normal arithmetic would take a hundred times as long
-  const tile ratio = fmax(kernel_values(p, distance) * p->inverse_kernel_at_spacing, (tile)(R(1.0e-3)));
-  const tile tensile = slope_volume * (ratio * ratio) * (ratio * ratio);
-  a->law_x += tensile * rx;
-  a->law_z += tensile * rz;
+  const tile ratio = fmax(kernel_values(p, s->distance) * p->inverse_kernel_at_spacing, (tile)(R(1.0e-3)));
+  const tile tensile = s->over_distance * (ratio * ratio) * (ratio * ratio);
+  a->law_x += tensile * s->rx;
+  a->law_z += tensile * s->rz;
 #if DIMENSIONS == 3
-  a->law_y += tensile * ry;
+  a->law_y += tensile * s->ry;
 #endif
 #endif
 #if SHIFT_SMOOTHS
-  const tile near_density = R(1.0) + neighbour_compression(n, p, j, rx, ry, rz);
-  const tile weight = kernel_values(p, distance) * volume * near_density / (R(1.0) + a->compression + near_density);
+  const tile near_density = R(1.0) + neighbour_compression(n, p, s->j, s->rx, s->ry, s->rz);
+  const tile weight = kernel_values(p, s->distance) * s->volume * near_density / (R(1.0) + a->compression + near_density);
   a->law_x += weight * pair.relative.x;
   a->law_y += weight * pair.relative.y;
   a->law_z += weight * pair.relative.z;
