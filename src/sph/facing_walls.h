@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
 #include "bound_kernels.h"
+#include "exact_sums.h"
 #include "integrators/integrator.h"
 #include "moving_walls.h"
 #include "surroundings.h"
@@ -23,7 +25,7 @@ class FacingWalls {
 
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
-  /// `arguments`: of the surroundings, the state of each slot, the owners' regions and their totals. This must stay where it is from then
+  /// `arguments`: of the surroundings, the state of each slot, the owners' regions, their totals, and the quanta of those. This must stay where it is from then
   /// on.
   void bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& arguments);
   /// Adds to the pressure forces and torques of the owners whose regions are given, as wrench_totals leaves them.
@@ -39,7 +41,8 @@ class FacingWalls {
   compute::Buffer<Real> rest_;     ///< centres, and areas times normals
   compute::Buffer<int> owners_;    ///< of each piece
   KeptBuffer<Real> poses_;
-  compute::Buffer<Real> places_, forces_, sums_;
+  compute::Buffer<Real> places_, forces_;
+  compute::Buffer<std::int64_t> sums_;
   compute::Buffer<int> others_;
   std::map<Slot, BoundSweep> sweeps_;
   compute::BoundKernel chunk_kernel_, total_kernel_;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "exact_sums.h"
 #include "row_sums.h"
 #include "tables/device_sizes.h"
 #include "wavetank/compute/buffer.h"
+#include "wavetank/parallel/group.h"
 
 namespace wavetank {
 
@@ -12,23 +15,25 @@ namespace wavetank {
 template <class Real>
 class GuardImpulses {
  public:
-  /// `gives`: bodies, or the tank, get what the guard takes; `report_place`: where the step's report has it.
-  GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners, int report_place);
+  /// `gives`: bodies, or the tank, get what the guard takes. `scale`: of a particle's momentum. `group`: of parts of the water, each with
+  /// particles of its own; null if there is one.
+  GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners, const ExactScale& scale,
+                parallel::Group* group);
 
   /// Names what the guard writes. This must stay where it is once that is done.
   void add_to(compute::Arguments& arguments);
-  /// `arguments`: of the state, and the step's `report`.
+  /// `arguments`: of the state.
   void bind(const KernelMaker& make, const compute::Arguments& arguments);
 
   bool gives() const { return gives_; }
-  /// Queues the sums of what the guard has just taken, for the step's report; of so many chunks of particles.
+  /// Queues the sums of what the guard has just taken; of so many chunks of particles.
   void gather(int chunks);
   /// Room for particles so far apart; hits stay.
   void reserve(Stride stride);
   /// Of so many particles from the first of them on.
   void clear_hits(int first, int count);
-  /// The report as it came from the device.
-  void read(const std::vector<Real>& report);
+  /// Them, if they were queued: the same of all parts.
+  void read();
   /// No hits, and nothing taken.
   void clear();
   /// field::impulse_count values each owner, N·s and N·m·s, of the last step.
@@ -43,12 +48,14 @@ class GuardImpulses {
   bool gives_;
   int owners_;
   std::vector<double> values_;
-  int report_place_;
+  ExactScale scale_;
+  Real per_impulse_, per_moment_;
+  parallel::Group* group_;
   bool gathered_ = false;  ///< and not yet read
-  int value_count_;
-  compute::Buffer<Real> parts_;
-  RowSums<Real> sums_;
-  compute::BoundKernel chunk_kernel_, total_kernel_;
+  int columns_;
+  compute::Buffer<std::int64_t> parts_;
+  RowSums<std::int64_t> sums_;
+  compute::BoundKernel chunk_kernel_;
 };
 
 }  // namespace wavetank

@@ -6,7 +6,6 @@
 
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
-#include "wavetank/parallel/packed.h"
 #include "wavetank/sph/parted_solver.h"
 
 namespace wavetank {
@@ -51,12 +50,58 @@ std::uint64_t digest_of_walls(const std::vector<Facet>& facets, int dimensions) 
   return digest;
 }
 
+Packed& add(Packed& to, const Eigen::Vector3d& vector) { return to.value(vector.x()).value(vector.y()).value(vector.z()); }
+
+Eigen::Vector3d vector_from(Unpacked& from) {
+  Eigen::Vector3d vector;
+  for (int axis = 0; axis < 3; ++axis) vector[axis] = from.value<double>();
+  return vector;
+}
+
+/// Bodies are with the first part, and walls of all parts go with them.
+class TeamMover final : public WallMover {
+ public:
+  /// `mover`: of the first part; `coupled`: the same of all.
+  TeamMover(parallel::Group& group, WallMover* mover, std::vector<int> coupled)
+      : group_(group), mover_(mover), coupled_(std::move(coupled)) {}
+
+  std::vector<int> coupled() const override { return coupled_; }
+  WallMotions at(double time_step, double fraction) override {
+    return group_.rank() == 0 ? told(mover_->at(time_step, fraction)) : heard();
+  }
+  WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) override {
+    last_ = group_.rank() == 0 ? told(mover_->to_end(time_step, wrenches)) : heard();
+    return *last_;
+  }
+  const std::optional<WallMotions>& last() const { return last_; }
+
+ private:
+  WallMotions told(const WallMotions& motions) {
+    Packed message;
+    add_motions(message, motions);
+    const Bytes bytes = message.take();
+    for (int rank = 1; rank < group_.size(); ++rank) group_.send(rank, bytes);
+    return motions;
+  }
+  WallMotions heard() {
+    const Bytes bytes = group_.receive(0);
+    Unpacked from(bytes);
+    return motions_from(from);
+  }
+
+  parallel::Group& group_;
+  WallMover* mover_;
+  std::vector<int> coupled_;
+  std::optional<WallMotions> last_;
+};
+
 template <class Real>
 class PartServerOf final : public PartServer {
  public:
   PartServerOf(const compute::Device& device, const SolverRows& rows, const Case& scene, const Layout& dry,
                const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : device_(device),
+        group_(*rows.parting->group),
         walls_(digest_of_walls(dry.facets, discretisation.dimensions)),
         solver_(rows, device, scene, dry, discretisation, centres) {}
 
@@ -64,7 +109,10 @@ class PartServerOf final : public PartServer {
     Unpacked from(order);
     switch (from.value<PartOrder>()) {
       case PartOrder::advance:
-        report_ = solver_.advance(nullptr);
+        advance(from);
+        return {};
+      case PartOrder::walls:
+        solver_.set_wall_motions(motions_from(from));
         return {};
       case PartOrder::shorten:
         time_step_ = solver_.shorten_step(from.value<double>());
@@ -98,13 +146,25 @@ class PartServerOf final : public PartServer {
   const StepReport& report() const override { return report_; }
   double time_step() const override { return time_step_; }
   double imbalance() const override { return solver_.imbalance(); }
+  void lead(WallMover* mover) override { leading_ = mover; }
+  const std::optional<WallMotions>& motions() const override { return motions_; }
 
  private:
+  void advance(Unpacked& order) {
+    const bool moves = order.value<char>() != 0;
+    TeamMover mover(group_, leading_, order.values<int>());
+    report_ = solver_.advance(moves ? &mover : nullptr);
+    if (mover.last()) motions_ = mover.last();
+  }
+
   compute::Device device_;
+  parallel::Group& group_;
   std::uint64_t walls_;
   SphSolver<Real> solver_;
   StepReport report_;
   double time_step_ = 0;
+  WallMover* leading_ = nullptr;
+  std::optional<WallMotions> motions_;
 };
 
 /// A part that is made when rank 0 has told what it is.
@@ -138,6 +198,39 @@ parallel::Bytes packed(const FirstOrder& order) {
   std::vector<double> numbers;
   for (const Eigen::Vector3d& centre : order.centres) numbers.insert(numbers.end(), centre.data(), centre.data() + 3);
   return Packed().value(PartOrder::begin).value(order.parting).values(numbers).text(order.scene).take();
+}
+
+void add_motions(Packed& to, const WallMotions& motions) {
+  to.value(motions.owners.size());
+  for (const WallMotion& motion : motions.owners) {
+    for (const Eigen::Vector3d& vector : {motion.velocity, motion.angular_velocity, motion.acceleration, motion.angular_acceleration,
+                                          motion.surface_velocity, motion.displacement})
+      add(to, vector);
+    const Eigen::Quaterniond& q = motion.orientation;
+    to.value(q.w()).value(q.x()).value(q.y()).value(q.z());
+  }
+  to.value(motions.frame.has_value());
+  if (!motions.frame) return;
+  for (const Eigen::Vector3d& vector :
+       {motions.frame->gravity, motions.frame->origin, motions.frame->angular_velocity, motions.frame->angular_acceleration})
+    add(to, vector);
+}
+
+WallMotions motions_from(Unpacked& from) {
+  WallMotions motions;
+  motions.owners.resize(from.value<std::size_t>());
+  for (WallMotion& motion : motions.owners) {
+    for (Eigen::Vector3d* vector : {&motion.velocity, &motion.angular_velocity, &motion.acceleration, &motion.angular_acceleration,
+                                    &motion.surface_velocity, &motion.displacement})
+      *vector = vector_from(from);
+    Eigen::Quaterniond& q = motion.orientation;
+    for (double* number : {&q.w(), &q.x(), &q.y(), &q.z()}) *number = from.value<double>();
+  }
+  if (!from.value<bool>()) return motions;
+  FrameMotion& frame = motions.frame.emplace();
+  for (Eigen::Vector3d* vector : {&frame.gravity, &frame.origin, &frame.angular_velocity, &frame.angular_acceleration})
+    *vector = vector_from(from);
+  return motions;
 }
 
 parallel::Bytes packed(const PartFacts& facts) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "wavetank/compute/device.h"
 #include "wavetank/geometry/layout.h"
 #include "wavetank/parallel/group.h"
+#include "wavetank/parallel/packed.h"
 #include "wavetank/sph/discretisation.h"
 #include "wavetank/sph/solver.h"
 
@@ -17,7 +19,8 @@ namespace wavetank {
 /// What the parts are asked to do, as the first byte of an order, and what comes after it.
 enum class PartOrder : char {
   begin,    ///< a part in another process: FirstOrder; replies with PartFacts
-  advance,  ///< a step
+  advance,  ///< a step: whether walls move in it, and the owners whose wrenches move them
+  walls,    ///< WallMotions, as they are now
   shorten,  ///< s, of the next step
   limit,    ///< s, of every step
   film,     ///< lumps
@@ -45,6 +48,9 @@ struct PartFacts {
 parallel::Bytes packed(const PartFacts& facts);
 PartFacts part_facts(const parallel::Bytes& bytes);
 
+void add_motions(parallel::Packed& to, const WallMotions& motions);
+WallMotions motions_from(parallel::Unpacked& from);
+
 /// Makes the steps of one part of the water, as orders have it.
 class PartServer {
  public:
@@ -57,6 +63,10 @@ class PartServer {
   virtual double time_step() const = 0;
   /// As SphSolver has it.
   virtual double imbalance() const = 0;
+  /// Of the part that has bodies: who moves them in the next step.
+  virtual void lead(WallMover* mover) = 0;
+  /// Where walls went in the last step that moved them.
+  virtual const std::optional<WallMotions>& motions() const = 0;
 };
 
 /// Throws Error for a device without the precision that the case asks for.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "part_server.h"
@@ -21,9 +22,6 @@ using parallel::Unpacked;
 /// What parts cannot do yet, as the key of the case that asks for it; "" if there is nothing.
 std::string refused(const Case& scene, const Layout& layout) {
   const NumericsCase& numerics = scene.numerics;
-  if (scene.tank.motion != Motion::fixed) return "the tank moves";
-  for (const BodyCase& body : scene.bodies)
-    if (body.motion != Motion::fixed) return "body '" + body.name + "' moves";
   if (!layout.openings.empty()) return "the case has openings";
   for (int axis = 0; axis < 3; ++axis)
     if (scene.tank.periodic[axis]) return "the tank is periodic";
@@ -44,9 +42,6 @@ int axis_of_parts(const Discretisation& d) {
   }
   return axis;
 }
-
-/// Kernel supports of a block: fewer in small tanks, so that they have some of them; more where that costs fewer tiles that are not full.
-int supports_of_block(const Discretisation& d, int axis) { return std::clamp(d.cells[axis] / 16, 2, 8); }
 
 /// Which parts have other last bits, and which have fewer cores than their devices have threads.
 void tell_of_parts(const parallel::Team& team, const std::vector<PartFacts>& parts) {
@@ -105,16 +100,22 @@ class PartedSolver final : public Solver {
   StepReport settle(double periods, const std::function<void(double)>& progress) override { return changed().settle(periods, progress); }
 
   StepReport advance(WallMover* mover) override {
-    if (mover != nullptr) refuse("something moves");
     if (stale_parts_ || is_time_to_cut()) cut();
     stale_whole_ = true;
-    ask(PartOrder::advance);
+    parts_[0]->lead(mover);
+    const std::vector<int> coupled = mover != nullptr ? mover->coupled() : std::vector<int>();
+    ask(Packed().value(PartOrder::advance).value<char>(mover != nullptr ? 1 : 0).values(coupled));
+    if (parts_[0]->motions()) motions_ = parts_[0]->motions();
     ++steps_since_cut_;
     note_load();
     return parts_[0]->report();
   }
 
-  void set_wall_motions(const WallMotions&) override { refuse("something moves"); }
+  void set_wall_motions(const WallMotions& motions) override {
+    whole_.set_wall_motions(motions);
+    motions_ = motions;
+    tell_motions();
+  }
   void set_film(const std::vector<FilmLump>& lumps) override {
     whole_.set_film(lumps);
     std::vector<double> numbers;
@@ -196,11 +197,19 @@ class PartedSolver final : public Solver {
     parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + 1 - options_.halo_less;
     const int supports = supports_of_block(d, parting.axis);
     parting.block = supports * places_a_support;
-    parting.segment = supports_of_block(d, 0) * static_cast<int>(std::lround(d.support / grid.slot_length));
+    parting.segment = slots_of_segment(d, grid);
     parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
     parting.particles = particles;
     parting.spoils = options_.spoils;
     return parting;
+  }
+
+  /// The parts know them from the steps that they make; what is restored has them told.
+  void tell_motions() {
+    if (!motions_) return;
+    Packed order;
+    add_motions(order.value(PartOrder::walls), *motions_);
+    ask(order);
   }
 
   /// Of blocks, the least that a part may have: halos are of the parts beside it.
@@ -219,6 +228,7 @@ class PartedSolver final : public Solver {
   SphSolver<Real>& whole() const {
     if (!stale_whole_) return whole_;
     whole_.restore(whole_.joined(ask(PartOrder::save)));
+    if (motions_) whole_.set_wall_motions(*motions_);
     stale_whole_ = false;
     return whole_;
   }
@@ -233,6 +243,7 @@ class PartedSolver final : public Solver {
     SphSolver<Real>& all = whole();
     const std::vector<int> cuts = cuts_for(all.particles_in_blocks(parting_));
     ask(Packed().value(PartOrder::cut).values(cuts).values(all.save()));
+    tell_motions();
     stale_parts_ = false;
     steps_since_cut_ = 0;
     lost_steps_ = 0;
@@ -256,6 +267,7 @@ class PartedSolver final : public Solver {
   Parting parting_;
   std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
   std::vector<double> film_;                        ///< that the parts know of
+  std::optional<WallMotions> motions_;              ///< of walls that have moved, now
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;
   int steps_since_cut_ = 0;

@@ -1,8 +1,15 @@
 #include "parting.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wavetank {
+
+int supports_of_block(const Discretisation& discretisation, int axis) { return std::clamp(discretisation.cells[axis] / 16, 2, 8); }
+
+int slots_of_segment(const Discretisation& discretisation, const GridShape& grid) {
+  return supports_of_block(discretisation, 0) * std::max(static_cast<int>(std::lround(discretisation.support / grid.slot_length)), 1);
+}
 
 const std::vector<FieldRow>& part_fields() {
   static const std::vector<FieldRow> rows{{ParticleArray::state, {"own"}, "", "1 of the part's own particles, 0 of those of its halo"}};

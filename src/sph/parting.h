@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid_shape.h"
 #include "tables/fields.h"
 #include "tables/parameters.h"
 #include "wavetank/parallel/group.h"
@@ -25,6 +26,11 @@ struct Parting {
 
   int blocks() const { return (places + block - 1) / block; }
 };
+
+/// Kernel supports of a block: fewer in small tanks, so that they have some of them; more where that costs fewer tiles that are not full.
+int supports_of_block(const Discretisation& discretisation, int axis);
+/// Slots, of which tiles have particles together where the water is cut into parts, and whose forces on walls are found together.
+int slots_of_segment(const Discretisation& discretisation, const GridShape& grid);
 
 /// What a solver of a part has besides: which particles are its own, and where parts end.
 const std::vector<FieldRow>& part_fields();

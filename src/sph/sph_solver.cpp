@@ -56,6 +56,16 @@ std::size_t cells_of(const Discretisation& d) {
   return static_cast<std::size_t>(d.cells[0]) * static_cast<std::size_t>(d.cells[1]) * static_cast<std::size_t>(d.cells[2]);
 }
 
+/// Of the force on a particle of the water, N, whose pressure is that of the speed of sound.
+ExactScale scale_of_forces(const Case& scene, const Discretisation& d) {
+  return {scene.fluid.density * d.sound_speed * d.sound_speed * std::pow(d.spacing, d.dimensions - 1), d.spacing};
+}
+
+/// Of its momentum at that speed, N·s.
+ExactScale scale_of_impulses(const Case& scene, const Discretisation& d) {
+  return {scene.fluid.density * std::pow(d.spacing, d.dimensions) * d.sound_speed, d.spacing};
+}
+
 /// Of a tile: about as many as a particle has neighbours in a lattice, which is half as much again as tiles of four with four candidates
 /// have.
 int blocks_with_room(const Discretisation& d) {
@@ -113,9 +123,10 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       walls_(case_walls_.arrays<Real>(device)),
       loads_(device, elements_ ? walls_.stride : 1),
       wrenches_(device, discretisation, grid_shape_, boxes_, facing_pieces(), !images_.empty(),
-                farthest_drift(rows.integrator(scene, nullptr), scene, discretisation)),
-      guarded_(device, anything_free(scene), stride_, centres.size(), reports_.size()),
-      report_(device, static_cast<std::size_t>(reports_.size()) + guarded_.values().size()),
+                farthest_drift(rows.integrator(scene, nullptr), scene, discretisation), scale_of_forces(scene, discretisation)),
+      guarded_(device, anything_free(scene), stride_, centres.size(), scale_of_impulses(scene, discretisation),
+               rows.parting ? rows.parting->group : nullptr),
+      report_(device, reports_.size()),
       watches_(device, static_cast<std::size_t>(chunks_) * reports_.greatest_count()),
       energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       fillings_(device, stride_),
@@ -360,7 +371,7 @@ StepReport SphSolver<Real>::watch() {
   kernels_.watch_groups.launch(groups_);
   kernels_.watch_total.launch(1);
   const std::vector<Real> values = report_.download();
-  guarded_.read(values);
+  guarded_.read();
   std::vector<int> counted(reports_.integer_count());
   std::memcpy(counted.data(), &values[reports_.integers()], counted.size() * sizeof(int));
   if (part_) {

@@ -32,7 +32,7 @@ void SphSolver<Real>::bind_kernels() {
   surroundings_.grid.bind(*make_, sorting.memory("half_state", half_).memory("spare_id", spare_id_));
   wrenches_.bind(*make_, case_.numerics.gradients == Gradients::sph ? "wall_forces.cl" : "mls_wall_forces.cl",
                  {{Slot::now, arguments_of(Slot::now)}, {Slot::trial, arguments_of(Slot::trial)}});
-  guarded_.bind(*make_, arguments().memory("report", report_));
+  guarded_.bind(*make_, arguments());
   if (moving_walls_) moving_walls_->bind(*make_, arguments(), walls_);
   if (part_) bind_part();
 }

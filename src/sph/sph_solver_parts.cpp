@@ -220,6 +220,7 @@ template <class Real>
 void SphSolver<Real>::set_cuts(const std::vector<int>& cuts) {
   wavetank::set_cuts(*values_, part_->parting(), cuts);
   upload_parameters(*values_);
+  wrenches_.set_part(part_->parting(), static_cast<int>(values_->at("own_begin")), static_cast<int>(values_->at("own_end")));
 }
 
 template <class Real>

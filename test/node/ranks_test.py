@@ -112,12 +112,20 @@ class Ranks(ProgramTest):
             return bag.get_message_count("/wavetank/probes/P1")
 
     def test_any_number_of_them_has_the_bits_of_threads(self):
-        case = self.dam_break()
+        self.expect_bits_of_threads(self.dam_break(), (1, 2, 3, 4))
+
+    def test_bodies_too(self):
+        """The step of the dam break, loose, and a box that floats in the water."""
+        step = dict(DAM_BREAK["bodies"][0], motion="free", density=1500.0)
+        box = {"name": "box", "box": {"min": [0.15, -0.1, 0.3], "max": [0.35, 0.1, 0.44]}, "motion": "free", "density": 500.0}
+        self.expect_bits_of_threads(self.dam_break(bodies=[step, box]), (2, 3))
+
+    def expect_bits_of_threads(self, case, numbers):
         one = self.run_program(case, "--device", "0:0,0:0", "--save", "threads.snapshot", env=self.environment)
         self.assert_runs(one)
         steps = next(line for line in one.stdout.splitlines() if line.startswith("steps"))
         self.assertGreater(int(steps.split()[1]), 100)
-        for ranks in (1, 2, 3, 4):
+        for ranks in numbers:
             with self.subTest(ranks=ranks):
                 result = self.mpirun(ranks, case, "--save", "ranks.snapshot", "--bag", "ranks.bag")
                 self.assert_runs(result)
@@ -128,12 +136,11 @@ class Ranks(ProgramTest):
                 self.assertEqual(self.samples_of("ranks.bag"), 11)
 
     def test_a_case_that_cannot_be_cut_is_refused_once(self):
-        box = {"name": "box", "box": {"min": [0.1, -0.1, 0.35], "max": [0.2, 0.1, 0.45]}, "motion": "free", "density": 500.0}
-        result = self.mpirun(2, self.dam_break(bodies=[box]), "--bag", "refused.bag")
+        result = self.mpirun(2, self.dam_break(numerics__walls={"method": "ghost"}), "--bag", "refused.bag")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(
             sentences(result.stderr),
-            ["wavetank_run: mpirun has started 2 ranks, but body 'box' moves, which several devices cannot do together yet: run it without mpirun."],
+            ["wavetank_run: mpirun has started 2 ranks, but numerics/walls/method is ghost, which several devices cannot do together yet: run it without mpirun."],
         )
         self.assertNotIn("refused.bag", self.files())
 

@@ -21,15 +21,19 @@ struct PartedTank {
   PartedTank(const Case& checked, int parts, const PartedSolverOptions& options = {})
       : layout(lay_out(checked)), scene(settled(checked, layout)), discretisation(discretise(scene, layout)) {
     for (int k = 0; k < parts; ++k) devices.emplace_back(test_device().info());
-    const std::vector<Vector3d> centres(1 + scene.bodies.size(), Vector3d::Zero());
+    std::vector<Vector3d> centres(1, Vector3d::Zero());
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const Box box = layout.meshes[b + 1].bounding_box();
+      centres.push_back(0.5 * (box.min + box.max));
+    }
     solver = make_parted_solver(devices, scene, layout, discretisation, centres, options);
     solver->pack(10, {});
     solver->start();
   }
   /// False when a step is in violation.
-  bool run(int steps) {
+  bool run(int steps, WallMover* mover = nullptr) {
     for (int k = 0; k < steps; ++k)
-      if (!solver->advance().valid()) return false;
+      if (!solver->advance(mover).valid()) return false;
     return true;
   }
 
@@ -39,6 +43,75 @@ struct PartedTank {
   std::vector<compute::Device> devices;
   std::unique_ptr<Solver> solver;
 };
+
+/// Bodies that the water's own forces move and turn, as if each had this mass and a radius of gyration of 0.1 m, in a tank that is shaken.
+class Afloat final : public WallMover {
+ public:
+  Afloat(std::size_t bodies, double mass, const Vector3d& shake) : mass_(mass), shake_(shake) {
+    now_.owners.resize(1 + bodies);
+    if (!shake.isZero()) now_.frame = FrameMotion{Vector3d(0, 0, -9.81)};
+  }
+
+  std::vector<int> coupled() const override {
+    std::vector<int> all;
+    for (std::size_t body = 1; body < now_.owners.size(); ++body) all.push_back(static_cast<int>(body));
+    return all;
+  }
+  WallMotions at(double time_step, double fraction) override {
+    WallMotions there = now_;
+    for (WallMotion& body : there.owners) body.displacement += fraction * time_step * body.velocity;
+    return there;
+  }
+  WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) override {
+    for (std::size_t k = 0; k < wrenches.size(); ++k) {
+      WallMotion& body = now_.owners[1 + k];
+      body.acceleration = (wrenches[k][0] + wrenches[k][1]) / mass_ + Vector3d(0, 0, -9.81);
+      body.velocity += time_step * body.acceleration;
+      body.displacement += time_step * body.velocity;
+      body.angular_velocity += time_step * (wrenches[k][2] + wrenches[k][3]) / (mass_ * 0.01);
+      const Vector3d turn = time_step * body.angular_velocity;
+      if (turn.norm() > 0) body.orientation = (Eigen::AngleAxisd(turn.norm(), turn.normalized()) * body.orientation).normalized();
+    }
+    ++step_;
+    if (now_.frame) now_.frame->gravity = Vector3d(0, 0, -9.81) + std::sin(0.1 * step_) * shake_;
+    return now_;
+  }
+  const WallMotion& body(std::size_t k) const { return now_.owners[1 + k]; }
+
+ private:
+  double mass_;
+  Vector3d shake_;
+  WallMotions now_;
+  int step_ = 0;
+};
+
+/// What is left of the water and of the bodies in it, as bytes.
+std::vector<char> afloat_after(const Case& scene, int parts, int steps, double mass, const Vector3d& shake,
+                               const PartedSolverOptions& options = {}) {
+  PartedTank tank(scene, parts, options);
+  Afloat bodies(scene.bodies.size(), mass, shake);
+  EXPECT_TRUE(tank.run(steps, &bodies));
+  EXPECT_GT(bodies.body(0).displacement.norm(), 0.1 * *scene.fluid.spacing) << "nothing has moved";
+  std::vector<char> state = tank.solver->save();
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const WallMotion& body = bodies.body(k);
+    const double numbers[] = {body.displacement.x(), body.displacement.y(), body.displacement.z(), body.orientation.x(),
+                              body.orientation.y(),  body.orientation.z(),  body.orientation.w()};
+    state.insert(state.end(), reinterpret_cast<const char*>(numbers), reinterpret_cast<const char*>(numbers + 7));
+  }
+  const std::vector<WallWrench> wrenches = tank.solver->wrenches();
+  const char* const first = reinterpret_cast<const char*>(wrenches.data());
+  state.insert(state.end(), first, first + wrenches.size() * sizeof(WallWrench));
+  return state;
+}
+
+BodyCase afloat(const std::string& name, const Box& box) {
+  BodyCase body;
+  body.name = name;
+  body.shape = box;
+  body.motion = Motion::free;
+  return body;
+}
 
 std::vector<char> state_after(const Case& scene, int parts, int steps, const PartedSolverOptions& options = {}) {
   PartedTank tank(scene, parts, options);
@@ -104,6 +177,34 @@ TEST(PartedSolver, AlsoByRiemannProblemsInDoublePrecision) {
   expect_same_bits(scene, 60, {2});
 }
 
+/// Two bodies beside the cut and over it, with a gap of half a spacing between them, in a tank that is shaken along.
+TEST(PartedSolver, AlsoWithBodiesThatTheWaterMoves) {
+  Case scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.tank.motion = Motion::commanded;
+  scene.bodies = {afloat("left", Box{Vector3d(0.16, 0, 0.2), Vector3d(0.32, 0, 0.44)}),
+                  afloat("right", Box{Vector3d(0.34, 0, 0.2), Vector3d(0.46, 0, 0.44)})};
+  const Vector3d shake(2, 0, 0);
+  const std::vector<char> one = afloat_after(scene, 1, 120, 30, shake);
+  EXPECT_TRUE(afloat_after(scene, 2, 120, 30, shake, spoiled()) == one);
+  PartedSolverOptions options = spoiled();
+  options.cut_every = 5;
+  options.uneven = 1;
+  EXPECT_TRUE(afloat_after(scene, 2, 120, 30, shake, options) == one) << "cut anew";
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  EXPECT_TRUE(afloat_after(scene, 2, 40, 30, shake, spoiled()) == afloat_after(scene, 1, 40, 30, shake)) << "another scheme";
+}
+
+/// Across rows, over the corner of the water.
+TEST(PartedSolver, AlsoWithABodyIn3D) {
+  Case scene = running_out(3);
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.36, 0.5, 0.4)}};
+  scene.tank.shape = BoxTank{Vector3d(0.36, 1.2, 0.8), Vector3d::Zero(), false};
+  scene.bodies = {afloat("box", Box{Vector3d(0.08, 0.3, 0.24), Vector3d(0.24, 0.56, 0.44)})};
+  EXPECT_TRUE(afloat_after(scene, 3, 45, 4, Vector3d::Zero(), spoiled()) == afloat_after(scene, 1, 45, 4, Vector3d::Zero()));
+}
+
 TEST(PartedSolver, CutsDoNotMatter) {
   Case scene = running_out(2);
   scene.fluid.spacing = 0.04;
@@ -157,8 +258,8 @@ TEST(PartedSolver, RefusesWhatPartsCannotDoYet) {
   scene.numerics.walls.method = WallMethod::ghost;
   EXPECT_NE(refusal(scene).find("numerics/walls/method is ghost, which several devices cannot do together yet"), std::string::npos);
   scene = running_out(2);
-  scene.tank.motion = Motion::free;
-  EXPECT_NE(refusal(scene).find("but the tank moves, which"), std::string::npos);
+  scene.numerics.gradients = Gradients::mls;
+  EXPECT_NE(refusal(scene).find("but numerics/gradients is mls, which"), std::string::npos);
   scene = running_out(2);
   EXPECT_NE(error_of([&] { PartedTank(scene, 30); }).find("choose fewer devices"), std::string::npos);
 }

@@ -187,15 +187,23 @@ void Runs::run_parts(const Case& checked) {
   solver->start();
   ++found_.cases;
   bool valid = true;
-  for (int step = 0; step < 2; ++step) valid = solver->advance().valid() && valid;
+  Carried mover(scene.dimensions);
+  for (int step = 0; step < 2; ++step) valid = solver->advance(&mover).valid() && valid;
   if (!valid) ++found_.violations;
   read(*solver);
 }
 
+Case moved(int dimensions, WallElements elements) {
+  Case scene = column(dimensions);
+  scene.numerics.walls.elements = elements;
+  scene.tank.motion = Motion::commanded;
+  scene.bodies[0].motion = Motion::free;
+  return scene;
+}
+
 /// Over the whole floor, long enough for two parts.
 Case long_water(int dimensions) {
-  Case scene = column(dimensions);
-  scene.bodies.clear();
+  Case scene = moved(dimensions, WallElements::facet);
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.35, dimensions == 3 ? 0.25 : 0, 0.1)}};
   return scene;
 }
@@ -291,14 +299,6 @@ void run_walls(Runs& runs, int dimensions) {
   scene.numerics.walls.method = WallMethod::ghost;
   scene.numerics.walls.repulsion = 0.1;
   runs.run(scene);
-}
-
-Case moved(int dimensions, WallElements elements) {
-  Case scene = column(dimensions);
-  scene.numerics.walls.elements = elements;
-  scene.tank.motion = Motion::commanded;
-  scene.bodies[0].motion = Motion::free;
-  return scene;
 }
 
 /// Walls that move, of the kinds that are listed differently.

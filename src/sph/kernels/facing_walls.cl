@@ -104,6 +104,10 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   const vector_t moved = turned(pose, rest[s], rest[count + s], rest[2 * count + s]);
   const real x = moved.x + pose[9], y = moved.y + pose[10], z = moved.z + pose[11];
   for (int slot = 0; slot < FACING_OWNERS; ++slot) others[slot * count + s] = NO_OWNER;
+#ifdef PARTED
+  const int part_place = place_in_parts(p, x, y, z);
+  if (part_place < p->own_begin || part_place >= p->own_end) return;
+#endif
   if (!may_face(spheres, poses, owner_count, owner, x, y, z)) return;
   walls_t walls = WALLS_OF_ARGUMENTS;
   wall_sweep_t b = {0};

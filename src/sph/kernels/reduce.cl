@@ -4,6 +4,7 @@
 #include "cells.cl"
 #include "equation_of_state.cl"
 #include "damping_rate.cl"
+#include "exact_sums.cl"
 
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
 typedef struct {
@@ -154,6 +155,16 @@ __kernel void sum_rows(int rows, int columns, __global const real* from, __globa
   to[item] = sum;
 }
 
+// The same of whole numbers.
+__kernel void sum_exact_rows(int rows, int columns, __global const long* from, __global long* to) {
+  const int item = get_global_id(0);
+  const int group = item / columns, column = item % columns;
+  if (group * REDUCE_CHUNK >= rows) return;
+  long sum = 0;
+  for (int row = group * REDUCE_CHUNK; row < min(rows, (group + 1) * REDUCE_CHUNK); ++row) sum += from[(long)row * columns + column];
+  to[item] = sum;
+}
+
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const real* rates,
                             int damping_count, __global const real* dampings, __global real* energies) {
   const int chunk = get_global_id(0);
@@ -204,15 +215,20 @@ __kernel void packing_chunks(int count, __global const real* rates, long stride,
   sums[chunk] = sum;
 }
 
-// Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner: N·s, N·m·s.
-__kernel void guard_chunks(int count, __global const real* state, long stride, __global const int* guard_hits, __global const int* takers,
-                           __global const real* lost, int owners, __global const real* motions, __global real* impulses) {
+// Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner, in quanta of either.
+__kernel void guard_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const int* guard_hits,
+                           __global const int* takers, __global const real* lost, int owners, __global const real* motions, real per_impulse,
+                           real per_moment, __global long* impulses) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
-  __global real* sums = impulses + (long)chunk * owners * IMPULSE_COUNT;
-  for (int k = 0; k < owners * IMPULSE_COUNT; ++k) sums[k] = R(0.0);
+  const int places = EXACT(IMPULSE_COUNT);
+  __global long* row = impulses + (long)chunk * owners * places;
+  for (int k = 0; k < owners * places; ++k) row[k] = 0;
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
     if (guard_hits[i] == 0) continue;
+#ifdef PARTED
+    if (state[FIELD_OWN * stride + i] == R(0.0)) continue;
+#endif
     const real mass = state[FIELD_MASS * stride + i];
     for (int slot = 0; slot < GUARD_OWNERS; ++slot) {
       const int owner = takers[slot * stride + i];
@@ -222,57 +238,57 @@ __kernel void guard_chunks(int count, __global const real* state, long stride, _
       __global const real* centre = OWNER_MOTION(motions, owner);
       const real rx = state[FIELD_X * stride + i] - centre[0], ry = state[FIELD_Y * stride + i] - centre[1],
                  rz = state[FIELD_Z * stride + i] - centre[2];
-      __global real* own = sums + owner * IMPULSE_COUNT;
-      own[0] += px;
-      own[1] += py;
-      own[2] += pz;
-      own[3] += ry * pz - rz * py;
-      own[4] += rz * px - rx * pz;
-      own[5] += rx * py - ry * px;
+      const real taken[IMPULSE_COUNT] = {per_impulse * px,
+                                         per_impulse * py,
+                                         per_impulse * pz,
+                                         per_moment * (ry * pz - rz * py),
+                                         per_moment * (rz * px - rx * pz),
+                                         per_moment * (rx * py - ry * px)};
+      long sums[EXACT(IMPULSE_COUNT)] = {0};
+      for (int k = 0; k < IMPULSE_COUNT; ++k) add_exact(sums, k, places, taken[k]);
+      for (int k = 0; k < places; ++k) row[owner * places + k] += sums[k];
     }
   }
 }
 
-__kernel void guard_totals(int values, __global const real* impulses, __global real* report) {
-  const int k = get_global_id(0);
-  if (k < values) report[REPORT_IMPULSES + k] = impulses[k];
-}
-
-// Force and torque on each owner of walls, from what the runs of cells of its region do to it: first of chunks of runs, of which each region has as many,
-// some of them empty.
+// Force and torque on each owner of walls, in quanta of either, from what the runs of cells of its region do to it: first of chunks of runs, of which each
+// region has as many, some of them empty.
 __kernel void wrench_chunks(int count, int chunks, int regions, int items, __global const int* region_values, __global const real* wrenches,
-                            __global real* sums) {
+                            real per_force, real per_moment, __global long* sums) {
   const int k = get_global_id(0);
   if (k >= count) return;
   const int region = k / chunks, chunk = k % chunks;
   const int first = region_values[region * REGION_COUNT + REGION_ITEM] + chunk * REDUCE_CHUNK;
   const int end = min(first + REDUCE_CHUNK, region + 1 < regions ? region_values[(region + 1) * REGION_COUNT + REGION_ITEM] : items);
-  for (int part = 0; part < WRENCH_COUNT; ++part) {
-    real sum = R(0.0), rest = R(0.0);
-    for (int item = first; item < end; ++item) add_compensated(wrenches[item * WRENCH_COUNT + part], &sum, &rest);
-    sums[k * WRENCH_COUNT + part] = sum;
-  }
+  const int places = EXACT(WRENCH_COUNT);
+  long sum[EXACT(WRENCH_COUNT)] = {0};
+  for (int item = first; item < end; ++item)
+    for (int part = 0; part < WRENCH_COUNT; ++part)
+      add_exact(sum, part, places, (part < WRENCH_COUNT / 2 ? per_force : per_moment) * wrenches[item * WRENCH_COUNT + part]);
+  for (int part = 0; part < places; ++part) sums[k * places + part] = sum[part];
 }
 
-__kernel void wrench_totals(int regions, int chunks, __global const real* sums, __global real* totals) {
-  const int k = get_global_id(0);
-  if (k >= regions) return;
-  for (int part = 0; part < WRENCH_COUNT; ++part) {
-    real sum = R(0.0), rest = R(0.0);
-    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(sums[(k * chunks + chunk) * WRENCH_COUNT + part], &sum, &rest);
-    totals[k * WRENCH_COUNT + part] = sum;
-  }
+__kernel void wrench_totals(int regions, int chunks, __global const long* sums, __global long* totals) {
+  const int item = get_global_id(0);
+  const int places = EXACT(WRENCH_COUNT);
+  if (item >= regions * places) return;
+  const int k = item / places, part = item % places;
+  long sum = 0;
+  for (int chunk = 0; chunk < chunks; ++chunk) sum += sums[(k * chunks + chunk) * places + part];
+  totals[item] = sum;
 }
 
 // What chunks of the pieces of wall that face another owner's (facing_walls.cl) add to the listed owners' pressure forces and torques.
+#define FACING_COUNT 6
 __kernel void facing_chunks(int items, int chunks, int count, __global const int* region_values, __global const real* motions, __global const int* owners,
-                            __global const real* places, __global const int* others, __global const real* forces, __global real* sums) {
+                            __global const real* places, __global const int* others, __global const real* forces, real per_force, real per_moment,
+                            __global long* sums) {
   const int item = get_global_id(0);
   if (item >= items) return;
   const int owner = region_values[item / chunks * REGION_COUNT + REGION_OWNER];
   const int chunk = item % chunks;
   __global const real* centre = OWNER_MOTION(motions, owner);
-  real sum[6] = {R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+  long sum[EXACT(FACING_COUNT)] = {0};
   for (int s = chunk * REDUCE_CHUNK; s < min(count, (chunk + 1) * REDUCE_CHUNK); ++s)
     for (int slot = 0; slot < FACING_OWNERS; ++slot) {
       const int other = others[slot * count + s];
@@ -280,22 +296,28 @@ __kernel void facing_chunks(int items, int chunks, int count, __global const int
       const real sign = owners[s] == owner ? R(1.0) : R(-1.0);
       const real fx = sign * forces[3 * slot * count + s], fy = sign * forces[(3 * slot + 1) * count + s], fz = sign * forces[(3 * slot + 2) * count + s];
       const real rx = places[s] - centre[0], ry = places[count + s] - centre[1], rz = places[2 * count + s] - centre[2];
-      sum[0] += fx;
-      sum[1] += fy;
-      sum[2] += fz;
-      sum[3] += ry * fz - rz * fy;
-      sum[4] += rz * fx - rx * fz;
-      sum[5] += rx * fy - ry * fx;
+      const real parts[FACING_COUNT] = {per_force * fx,
+                                        per_force * fy,
+                                        per_force * fz,
+                                        per_moment * (ry * fz - rz * fy),
+                                        per_moment * (rz * fx - rx * fz),
+                                        per_moment * (rx * fy - ry * fx)};
+      for (int k = 0; k < FACING_COUNT; ++k) add_exact(sum, k, EXACT(FACING_COUNT), parts[k]);
     }
-  for (int k = 0; k < 6; ++k) sums[6 * item + k] = sum[k];
+  for (int k = 0; k < EXACT(FACING_COUNT); ++k) sums[EXACT(FACING_COUNT) * item + k] = sum[k];
 }
 
-__kernel void facing_totals(int regions, int chunks, __global const real* sums, __global real* totals) {
+__kernel void facing_totals(int regions, int chunks, __global const long* sums, __global long* totals) {
   const int k = get_global_id(0);
   if (k >= regions) return;
-  for (int part = 0; part < 6; ++part) {
-    real sum = R(0.0), rest = R(0.0);
-    for (int chunk = 0; chunk < chunks; ++chunk) add_compensated(sums[6 * (k * chunks + chunk) + part], &sum, &rest);
-    totals[k * WRENCH_COUNT + (part < 3 ? part : part + 3)] += sum;
+  __global long* row = totals + k * EXACT(WRENCH_COUNT);
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    __global const long* added = sums + EXACT(FACING_COUNT) * (k * chunks + chunk);
+    for (int part = 0; part < FACING_COUNT; ++part) {
+      const int to = 2 * (part < 3 ? part : part + 3);
+      row[to] += added[2 * part];
+      row[to + 1] += added[2 * part + 1];
+    }
+    row[EXACT(WRENCH_COUNT) - 1] += added[EXACT(FACING_COUNT) - 1];
   }
 }

@@ -50,7 +50,6 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(around_law, 11, "what laws sum over neighbours beside ∇C: x, y, z") \
   ROW(around_count, 14, "values of a particle") \
   /* regions of the grid about an owner of walls, in which particles may touch it; gone through in runs of slots along x */ \
-  ROW(region_run, 32, "slots of a run") \
   ROW(region_owner, 0, "whose") \
   ROW(region_item, 1, "its first run among those of all regions") \
   ROW(region_slot_x, 2, "its first slot") \
@@ -59,7 +58,8 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(region_end_x, 5, "beyond its last slot") \
   ROW(region_runs, 6, "in a row of it") \
   ROW(region_rows, 7, "along y") \
-  ROW(region_count, 8, "values of a region") \
+  ROW(region_run, 8, "slots of a run: the first begins at the region's first slot") \
+  ROW(region_count, 9, "values of a region") \
   /* walls that move, and what they get */ \
   ROW(wrench_count, 12, "pressure force, viscous force, pressure torque, viscous torque") \
   ROW(frame_count, 12, "of the tank's frame: gravity less the acceleration of its origin, angular velocity, angular acceleration, origin") \

@@ -57,7 +57,7 @@ std::string ReportTable::header() const {
   return places + "#define GREATEST_COUNT " + std::to_string(greatest_count()) + "\n#define COUNTED_COUNT " +
          std::to_string(integer_count()) +
          "\n#define REPORT_STEP 0  // Δt of the next step\n#define REPORT_GREATEST 1\n#define REPORT_COUNTED " +
-         std::to_string(integers()) + "\n#define REPORT_IMPULSES " + std::to_string(size()) + "\n#define NOBODY " + std::to_string(nobody) +
+         std::to_string(integers()) + "\n#define NOBODY " + std::to_string(nobody) +
          "\n// Of which integers the least counts, and not the sum.\nINLINE bool is_first(int k) { return false" + least +
          "; }\nINLINE void watch_particle(const watched_t* w, __constant const parameters_t* p, __global const real* state, __global const "
          "real* rates, long "
