@@ -21,24 +21,20 @@ using parallel::Unpacked;
 
 /// What parts cannot do yet, as the key of the case that asks for it; "" if there is nothing.
 std::string refused(const Case& scene, const Layout& layout) {
-  const NumericsCase& numerics = scene.numerics;
   if (!layout.openings.empty()) return "the case has openings";
-  for (int axis = 0; axis < 3; ++axis)
-    if (scene.tank.periodic[axis]) return "the tank is periodic";
-  if (numerics.walls.method == WallMethod::ghost) return "numerics/walls/method is ghost";
-  if (kind_of(numerics.walls) != WallKind::facets) return "numerics/walls/elements is not facet";
-  if (numerics.gradients != Gradients::sph) return "numerics/gradients is " + word_of(numerics.gradients);
-  if (numerics.scheme == Scheme::riemann_ale) return "numerics/scheme is " + word_of(numerics.scheme);
+  const auto is_periodic = [&](int axis) { return scene.tank.periodic[axis] || (axis == 1 && scene.dimensions == 2); };
+  if (is_periodic(0) && is_periodic(1) && is_periodic(2)) return "the tank is periodic along all axes";
   return "";
 }
 
-/// Across the longer level axis of the tank.
-int axis_of_parts(const Discretisation& d) {
+/// Across the longer level axis of the tank, among those along which it is not periodic: there is no part between its ends.
+int axis_of_parts(const Case& scene, const Discretisation& d) {
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
-    if (k == d.top.axis || (k == 1 && d.dimensions == 2)) continue;
+    if (scene.tank.periodic[k] || (k == 1 && d.dimensions == 2)) continue;
     const double length = d.tank.max[k] - d.tank.min[k];
-    if (axis < 0 || length > d.tank.max[axis] - d.tank.min[axis]) axis = k;
+    const bool longer = axis >= 0 && length > d.tank.max[axis] - d.tank.min[axis];
+    if (axis < 0 || axis == d.top.axis || (k != d.top.axis && longer)) axis = k;
   }
   return axis;
 }
@@ -68,7 +64,7 @@ class PartedSolver final : public Solver {
         threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns)),
         team_(*threads_),
         whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
-        parting_(parting_for(discretisation, layout.particles.size())) {
+        parting_(parting_for(scene, discretisation, layout.particles.size())) {
     for (int rank = 0; rank < team_.size(); ++rank) add_part(rank, devices[rank], scene, layout, discretisation, centres);
     check_room();
   }
@@ -78,7 +74,7 @@ class PartedSolver final : public Solver {
                const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : team_(team),
         whole_(rows_for(scene), device, scene, layout, discretisation, centres),
-        parting_(parting_for(discretisation, layout.particles.size())) {
+        parting_(parting_for(scene, discretisation, layout.particles.size())) {
     check_room();
     const std::vector<Bytes> replies = team_.ask(packed(FirstOrder{parting_, centres, scene_text}), [&](int rank, const Bytes&) {
       add_part(rank, device, scene, layout, discretisation, centres);
@@ -186,14 +182,14 @@ class PartedSolver final : public Solver {
   std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
   std::vector<Bytes> ask(PartOrder order) const { return ask(Packed().value(order)); }
 
-  Parting parting_for(const Discretisation& d, std::size_t particles) const {
+  Parting parting_for(const Case& scene, const Discretisation& d, std::size_t particles) const {
     Parting parting;
-    parting.axis = axis_of_parts(d);
+    parting.axis = axis_of_parts(scene, d);
     const GridShape& grid = whole_.grid();
     const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
     const int places_a_support = static_cast<int>(std::lround(d.support / place));
     // a particle's drift, and that of those it looks for
-    const double reach = d.support + 2 * whole_.greatest_drift();
+    const double reach = whole_.greatest_reach() + 2 * whole_.greatest_drift();
     parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + 1 - options_.halo_less;
     const int supports = supports_of_block(d, parting.axis);
     parting.block = supports * places_a_support;

@@ -61,6 +61,8 @@ class SphSolver final : public Solver, private StepEngine {
 
   // of water in parts, whose solvers know their Parting
   const GridShape& grid() const { return grid_shape_; }
+  /// From how far others' state acts on a particle's rates within a step, m: through the pressure of a wall's element, from twice the support.
+  double greatest_reach() const { return (elements_ ? 2 : 1) * discretisation_.support; }
   /// How far a particle, at the most, is from where it was sorted when its neighbours are gone over, m.
   double greatest_drift() const;
   /// Particles by blocks of so many places along an axis, as Parting has them.

@@ -145,7 +145,9 @@ void SphSolver<Real>::find_shifts() {
   over_own(kernels_.shifts);
   if (zones_.any()) kernels_.hold_shifts.launch(count_);
   gradients_are_ahead_ = gradients_are_of_now_;
-  if (begins_with_gradients_) find_compression_rates(Slot::now);
+  if (!begins_with_gradients_) return;
+  refresh("shift");
+  find_compression_rates(Slot::now);
 }
 
 template <class Real>

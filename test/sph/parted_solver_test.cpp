@@ -205,6 +205,46 @@ TEST(PartedSolver, AlsoWithABodyIn3D) {
   EXPECT_TRUE(afloat_after(scene, 3, 45, 4, Vector3d::Zero(), spoiled()) == afloat_after(scene, 1, 45, 4, Vector3d::Zero()));
 }
 
+/// Elements have pressures of their own, from particles twice as far away.
+TEST(PartedSolver, AlsoByOtherWalls) {
+  Case scene = running_out(2);
+  scene.numerics.walls.elements = WallElements::numerical;
+  expect_same_bits(scene, 60, {2});
+  scene.fluid.spacing = 0.04;
+  scene.numerics.walls.method = WallMethod::ghost;
+  expect_same_bits(scene, 60, {2});
+}
+
+/// Volumes that follow what moves the particles, with gradients and rates found anew before a step.
+TEST(PartedSolver, AlsoWhereVolumesEvolve) {
+  Case scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.numerics.scheme = Scheme::riemann_ale;
+  scene.numerics.shifting = Shifting::michel;
+  expect_same_bits(scene, 60, {2});
+}
+
+TEST(PartedSolver, AlsoByLeastSquares) {
+  Case scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.numerics.gradients = Gradients::mls_corrected;
+  scene.numerics.integrator = Integrator::predictor_corrector;
+  expect_same_bits(scene, 60, {2});
+  scene.numerics.gradients = Gradients::mls;
+  scene.numerics.mls.pressure = MlsPressure::adjoint;
+  scene.numerics.walls.method = WallMethod::ghost;
+  expect_same_bits(scene, 60, {2});
+}
+
+/// Periodic along its length: cut across its height, between rows.
+TEST(PartedSolver, AlsoInAPeriodicTank) {
+  Case scene = box_case(Vector3d(0.4, 0, 1.2), 1.0, 0.02);
+  scene.dimensions = 2;
+  scene.gravity = Vector3d(3, 0, -9.81);
+  scene.tank.periodic = {true, false, false};
+  expect_same_bits(scene, 100, {2, 3});
+}
+
 TEST(PartedSolver, CutsDoNotMatter) {
   Case scene = running_out(2);
   scene.fluid.spacing = 0.04;
@@ -255,11 +295,8 @@ TEST(PartedSolver, StopsInTheSameStepWithTheSameReport) {
 TEST(PartedSolver, RefusesWhatPartsCannotDoYet) {
   const auto refusal = [](const Case& scene) { return error_of([&] { PartedTank(scene, 2); }); };
   Case scene = running_out(2);
-  scene.numerics.walls.method = WallMethod::ghost;
-  EXPECT_NE(refusal(scene).find("numerics/walls/method is ghost, which several devices cannot do together yet"), std::string::npos);
-  scene = running_out(2);
-  scene.numerics.gradients = Gradients::mls;
-  EXPECT_NE(refusal(scene).find("but numerics/gradients is mls, which"), std::string::npos);
+  scene.tank.periodic = {true, false, true};
+  EXPECT_NE(refusal(scene).find("but the tank is periodic along all axes, which several devices cannot do together yet"), std::string::npos);
   scene = running_out(2);
   EXPECT_NE(error_of([&] { PartedTank(scene, 30); }).find("choose fewer devices"), std::string::npos);
 }
