@@ -2,6 +2,7 @@
 
 #include <sched.h>
 
+#include <map>
 #include <utility>
 
 #include "sph_solver.h"
@@ -15,11 +16,17 @@ using parallel::Bytes;
 using parallel::Packed;
 using parallel::Unpacked;
 
+std::vector<Eigen::Vector3d> vectors_of(const std::vector<double>& numbers) {
+  std::vector<Eigen::Vector3d> vectors;
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) vectors.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+  return vectors;
+}
+
 FirstOrder first_order(Unpacked& from) {
   FirstOrder order;
   order.parting = from.value<Parting>();
   const auto numbers = from.values<double>();
-  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) order.centres.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+  order.centres = vectors_of(numbers);
   order.scene = from.text();
   return order;
 }
@@ -128,9 +135,25 @@ class PartServerOf final : public PartServer {
       case PartOrder::cut: {
         const auto cuts = from.values<int>();
         solver_.set_cuts(cuts);
+        ++cuts_;
         solver_.restore(from.values<char>());
         return {};
       }
+      case PartOrder::points: {
+        PointsOfAll& points = points_[from.value<int>()];
+        points = PointsOfAll();
+        points.wanted = from.value<PointValues>();
+        points.places = vectors_of(from.values<double>());
+        return {};
+      }
+      case PartOrder::evaluate:
+        return evaluate(points_.at(from.value<int>()));
+      case PartOrder::wrenches:
+        wrenches_ = solver_.wrenches();
+        return {};
+      case PartOrder::energies:
+        energies_ = solver_.energies();
+        return {};
       case PartOrder::memory:
         return Packed().value(solver_.device_memory()).take();
       case PartOrder::begin:
@@ -148,6 +171,8 @@ class PartServerOf final : public PartServer {
   double imbalance() const override { return solver_.imbalance(); }
   void lead(WallMover* mover) override { leading_ = mover; }
   const std::optional<WallMotions>& motions() const override { return motions_; }
+  const std::vector<WallWrench>& wrenches() const override { return wrenches_; }
+  const FluidEnergies& energies() const override { return energies_; }
 
  private:
   void advance(Unpacked& order) {
@@ -157,12 +182,42 @@ class PartServerOf final : public PartServer {
     if (mover.last()) motions_ = mover.last();
   }
 
+  /// A set of points, and those of it that lie in the part.
+  struct PointsOfAll {
+    PointValues wanted = PointValues::pressure;
+    std::vector<Eigen::Vector3d> places;
+    int cuts = -1;  ///< for which these were found
+    std::vector<int> own;
+    std::unique_ptr<PointSet> on_device;
+  };
+
+  Bytes evaluate(PointsOfAll& points) {
+    if (points.cuts != cuts_) {
+      points.cuts = cuts_;
+      points.own = solver_.own_points(points.places);
+      std::vector<Eigen::Vector3d> own;
+      for (const int k : points.own) own.push_back(points.places[k]);
+      points.on_device = own.empty() ? nullptr : solver_.make_points(own, points.wanted);
+    }
+    std::vector<double> numbers;
+    if (points.on_device)
+      for (const PointValue& value : solver_.evaluate(*points.on_device)) {
+        numbers.insert(numbers.end(), {value.pressure, value.filling, value.shepard});
+        numbers.insert(numbers.end(), value.velocity.data(), value.velocity.data() + 3);
+      }
+    return Packed().values(points.own).values(numbers).take();
+  }
+
   compute::Device device_;
   parallel::Group& group_;
   std::uint64_t walls_;
   SphSolver<Real> solver_;
   StepReport report_;
   double time_step_ = 0;
+  std::vector<WallWrench> wrenches_;
+  FluidEnergies energies_;
+  int cuts_ = 0;  ///< so far
+  std::map<int, PointsOfAll> points_;
   WallMover* leading_ = nullptr;
   std::optional<WallMotions> motions_;
 };
@@ -194,10 +249,14 @@ class RemotePart {
 
 }  // namespace
 
-parallel::Bytes packed(const FirstOrder& order) {
+std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors) {
   std::vector<double> numbers;
-  for (const Eigen::Vector3d& centre : order.centres) numbers.insert(numbers.end(), centre.data(), centre.data() + 3);
-  return Packed().value(PartOrder::begin).value(order.parting).values(numbers).text(order.scene).take();
+  for (const Eigen::Vector3d& vector : vectors) numbers.insert(numbers.end(), vector.data(), vector.data() + 3);
+  return numbers;
+}
+
+parallel::Bytes packed(const FirstOrder& order) {
+  return Packed().value(PartOrder::begin).value(order.parting).values(numbers_of(order.centres)).text(order.scene).take();
 }
 
 void add_motions(Packed& to, const WallMotions& motions) {

@@ -27,6 +27,10 @@ enum class PartOrder : char {
   save,     ///< replies with the state of the part's own particles
   cut,      ///< cuts, and a state of all the water, of which the part takes what is its
   memory,   ///< replies with the bytes on its device
+  points,   ///< a set of points by its number: what is wanted, and where they are
+  evaluate,  ///< replies with which of a set lie in the part, and the water there
+  wrenches,  ///< those on all owners by all the water
+  energies,  ///< of all the water
 };
 
 /// From which a process makes its part: the rest follows from the case.
@@ -48,6 +52,8 @@ struct PartFacts {
 parallel::Bytes packed(const PartFacts& facts);
 PartFacts part_facts(const parallel::Bytes& bytes);
 
+/// x, y, z of each, one after the other.
+std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors);
 void add_motions(parallel::Packed& to, const WallMotions& motions);
 WallMotions motions_from(parallel::Unpacked& from);
 
@@ -65,6 +71,9 @@ class PartServer {
   virtual double imbalance() const = 0;
   /// Of the part that has bodies: who moves them in the next step.
   virtual void lead(WallMover* mover) = 0;
+  /// As they were asked for last, the same of all parts.
+  virtual const std::vector<WallWrench>& wrenches() const = 0;
+  virtual const FluidEnergies& energies() const = 0;
   /// Where walls went in the last step that moved them.
   virtual const std::optional<WallMotions>& motions() const = 0;
 };

@@ -54,6 +54,35 @@ void tell_of_parts(const parallel::Team& team, const std::vector<PartFacts>& par
   }
 }
 
+/// Points that the parts know by a number, each those that lie in it; and the solver of all the water, once it is asked.
+class PointsOfAll final : public PointSet {
+ public:
+  PointsOfAll(int number_of_set, std::vector<Eigen::Vector3d> points, PointValues values)
+      : number(number_of_set), wanted(values), places(std::move(points)) {}
+
+  void set(const std::vector<Eigen::Vector3d>& points) override {
+    places = points;
+    told = of_whole_is_new_ = false;
+  }
+  const PointSet& of(const Solver& whole) const {
+    if (!of_whole_)
+      of_whole_ = whole.make_points(places, wanted);
+    else if (!of_whole_is_new_)
+      of_whole_->set(places);
+    of_whole_is_new_ = true;
+    return *of_whole_;
+  }
+
+  int number;
+  PointValues wanted;
+  std::vector<Eigen::Vector3d> places;
+  mutable bool told = false;  ///< to the parts
+
+ private:
+  mutable std::unique_ptr<PointSet> of_whole_;
+  mutable bool of_whole_is_new_ = false;
+};
+
 template <class Real>
 class PartedSolver final : public Solver {
  public:
@@ -92,7 +121,11 @@ class PartedSolver final : public Solver {
   }
 
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override { return changed().pack(iterations, progress); }
-  StepReport start() override { return changed().start(); }
+  StepReport start() override {
+    const StepReport report = changed().start();
+    has_started_ = true;
+    return report;
+  }
   StepReport settle(double periods, const std::function<void(double)>& progress) override { return changed().settle(periods, progress); }
 
   StepReport advance(WallMover* mover) override {
@@ -142,11 +175,35 @@ class PartedSolver final : public Solver {
   }
   std::optional<ThinWall> thinnest_wall() const override { return whole_.thinnest_wall(); }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override {
-    return whole_.make_points(points, wanted);
+    return std::make_unique<PointsOfAll>(next_points_++, points, wanted);
   }
-  std::vector<PointValue> evaluate(const PointSet& points) override { return whole().evaluate(points); }
-  std::vector<WallWrench> wrenches() override { return whole().wrenches(); }
-  FluidEnergies energies() override { return whole().energies(); }
+  std::vector<PointValue> evaluate(const PointSet& set) override {
+    const auto& points = dynamic_cast<const PointsOfAll&>(set);
+    if (!parts_have_it()) return whole_.evaluate(points.of(whole_));
+    if (!std::exchange(points.told, true))
+      ask(Packed().value(PartOrder::points).value(points.number).value(points.wanted).values(numbers_of(points.places)));
+    std::vector<PointValue> values(points.places.size());
+    for (const Bytes& reply : ask(Packed().value(PartOrder::evaluate).value(points.number))) {
+      Unpacked from(reply);
+      const auto own = from.values<int>();
+      const auto numbers = from.values<double>();
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const double* const of_point = &numbers.at(6 * k);
+        values.at(own[k]) = {of_point[0], of_point[1], of_point[2], Eigen::Vector3d(of_point + 3)};
+      }
+    }
+    return values;
+  }
+  std::vector<WallWrench> wrenches() override {
+    if (!parts_have_it()) return whole_.wrenches();
+    ask(PartOrder::wrenches);
+    return parts_[0]->wrenches();
+  }
+  FluidEnergies energies() override {
+    if (!parts_have_it()) return whole_.energies();
+    ask(PartOrder::energies);
+    return parts_[0]->energies();
+  }
   LostVolume lost_volume() override { return whole().lost_volume(); }
   FluidState download() override { return whole().download(); }
   FluidSurface find_surface() override { return whole().find_surface(); }
@@ -156,6 +213,7 @@ class PartedSolver final : public Solver {
     whole_.restore(bytes);
     stale_whole_ = false;
     stale_parts_ = true;
+    has_started_ = true;
   }
   std::size_t device_memory() const override {
     const std::vector<Bytes> replies = ask(PartOrder::memory);
@@ -235,6 +293,12 @@ class PartedSolver final : public Solver {
     return all;
   }
 
+  /// So that they read it, as they do between steps, or after a start or a restore: other sums in another order have other last bits.
+  bool parts_have_it() {
+    if (stale_parts_ && has_started_) cut();
+    return !stale_parts_;
+  }
+
   void cut() {
     SphSolver<Real>& all = whole();
     const std::vector<int> cuts = cuts_for(all.particles_in_blocks(parting_));
@@ -263,9 +327,11 @@ class PartedSolver final : public Solver {
   Parting parting_;
   std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
   std::vector<double> film_;                        ///< that the parts know of
+  mutable int next_points_ = 0;
   std::optional<WallMotions> motions_;              ///< of walls that have moved, now
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;
+  bool has_started_ = false;
   int steps_since_cut_ = 0;
   double lost_steps_ = 0, load_when_cut_ = 1;
 };

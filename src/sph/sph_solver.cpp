@@ -66,6 +66,18 @@ ExactScale scale_of_impulses(const Case& scene, const Discretisation& d) {
   return {scene.fluid.density * std::pow(d.spacing, d.dimensions) * d.sound_speed, d.spacing};
 }
 
+/// Of what energies() sums, each.
+std::vector<double> quanta_of_energies(const Case& scene, const Discretisation& d) {
+  const double mass = scene.fluid.density * std::pow(d.spacing, d.dimensions), energy = mass * d.sound_speed * d.sound_speed;
+  std::vector<double> typical(field::energy_count, energy);
+  typical[field::energy_mass] = mass;
+  std::fill_n(typical.begin() + field::energy_moment, 3, mass * d.spacing);
+  typical[field::energy_damper] = energy * d.sound_speed / d.spacing;
+  std::fill_n(typical.begin() + field::energy_zone_force, 3, energy / d.spacing);
+  std::transform(typical.begin(), typical.end(), typical.begin(), quanta_per_unit);
+  return typical;
+}
+
 /// Of a tile: about as many as a particle has neighbours in a lattice, which is half as much again as tiles of four with four candidates
 /// have.
 int blocks_with_room(const Discretisation& d) {
@@ -128,11 +140,13 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
                rows.parting ? rows.parting->group : nullptr),
       report_(device, reports_.size()),
       watches_(device, static_cast<std::size_t>(chunks_) * reports_.greatest_count()),
-      energy_parts_(device, static_cast<std::size_t>(chunks_) * field::energy_count),
       fillings_(device, stride_),
       group_watches_(device, static_cast<std::size_t>(groups_) * reports_.greatest_count()),
       alarms_(device, static_cast<std::size_t>(chunks_) * reports_.integer_count()),
-      group_alarms_(device, static_cast<std::size_t>(groups_) * reports_.integer_count()) {
+      group_alarms_(device, static_cast<std::size_t>(groups_) * reports_.integer_count()),
+      energy_parts_(device, static_cast<std::size_t>(chunks_) * exact_places(field::energy_count)),
+      energy_quanta_(quanta_of_energies(scene, discretisation)),
+      energy_quanta_on_device_(device, std::vector<Real>(energy_quanta_.begin(), energy_quanta_.end())) {
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
   if (scene.numerics.gradients != Gradients::sph) check_walls_of_least_squares(scene, layout, thinnest_wall().has_value());

@@ -9,6 +9,7 @@
 #include "build_options.h"
 #include "case_walls.h"
 #include "damping_zones.h"
+#include "exact_sums.h"
 #include "drains.h"
 #include "guard_impulses.h"
 #include "integrators/integrator.h"
@@ -73,6 +74,8 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
   /// Particles of the part that has the most, over those of the mean; after a step the same on all parts.
   double imbalance() const;
+  /// Which of these points lie where the part has its own particles: every point does in one part.
+  std::vector<int> own_points(const std::vector<Eigen::Vector3d>& points) const;
   /// Of what kernels are made of and are told: other solvers of the same case have the same, whatever their part.
   std::uint64_t digest() const;
 
@@ -291,12 +294,16 @@ class SphSolver final : public Solver, private StepEngine {
   Buffer loads_;
   WallWrenches<Real> wrenches_;
   GuardImpulses<Real> guarded_;
-  Buffer report_, watches_, energy_parts_, fillings_;
+  Buffer report_, watches_, fillings_;
   Buffer around_;         ///< of the free surface and what shifting laws go by; on the device only while it is needed
   Buffer packing_parts_;  ///< likewise
   Buffer group_watches_;
   compute::Buffer<int> alarms_, group_alarms_, pair_counts_;
-  RowSums<Real> energy_sums_, packing_sums_;
+  compute::Buffer<std::int64_t> energy_parts_;
+  RowSums<std::int64_t> energy_sums_;
+  std::vector<double> energy_quanta_;  ///< of each of these sums, a unit
+  Buffer energy_quanta_on_device_;
+  RowSums<Real> packing_sums_;
   Real longest_step_ = 0;  ///< bound on Δt from what moves besides the fluid, s
   Trial trial_;
   std::optional<KernelMaker> make_;

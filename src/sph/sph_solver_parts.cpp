@@ -208,6 +208,17 @@ std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>& coordinates) 
 }
 
 template <class Real>
+std::vector<int> SphSolver<Real>::own_points(const std::vector<Eigen::Vector3d>& points) const {
+  const int axis = part_->parting().axis;
+  std::vector<int> found;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int place = place_in_parts(part_->parting(), static_cast<Real>(points[k][axis] - discretisation_.origin[axis]));
+    if (place >= values_->at("own_begin") && place < values_->at("own_end")) found.push_back(static_cast<int>(k));
+  }
+  return found;
+}
+
+template <class Real>
 std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting& parting) const {
   std::vector<std::int64_t> counts(parting.blocks(), 0);
   const std::vector<Real> state = state_.download();
@@ -256,6 +267,7 @@ std::uint64_t SphSolver<Real>::digest() const {
   template void SphSolver<Real>::sort_alone();                                                         \
   template StepReport SphSolver<Real>::watch_parts(const std::vector<Real>&, const std::vector<int>&); \
   template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \
+  template std::vector<int> SphSolver<Real>::own_points(const std::vector<Eigen::Vector3d>&) const;    \
   template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;       \
   template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
   template double SphSolver<Real>::greatest_drift() const;                                             \

@@ -104,7 +104,8 @@ void SphSolver<Real>::reserve(int count) {
   for (const Buffer* array : arrays) larger.push_back(respaced(device_, *array, stride_, stride));
   compute::Buffer<std::uint32_t> ids = respaced(device_, id_, static_cast<Stride>(id_.size()), stride), spare_ids(device_, stride);
   Buffer fillings(device_, stride), watches(device_, chunks * reports_.greatest_count()),
-      group_watches(device_, groups * reports_.greatest_count()), energy_parts(device_, chunks * field::energy_count);
+      group_watches(device_, groups * reports_.greatest_count());
+  compute::Buffer<std::int64_t> energy_parts(device_, chunks * exact_places(field::energy_count));
   compute::Buffer<int> alarms(device_, chunks * reports_.integer_count()), group_alarms(device_, groups * reports_.integer_count());
   guarded_.reserve(stride);
   surroundings_.grid.reserve(device_, static_cast<int>(stride), part_ ? 1 + 2 * static_cast<int>(stride) : 0);

@@ -80,11 +80,21 @@ template <class Real>
 FluidEnergies SphSolver<Real>::energies() {
   kernels_.energy_chunks.launch(chunks_);
   energy_sums_.sum(chunks_);
-  const std::vector<Real> total = energy_sums_.download();
-  FluidEnergies energies{total[0], total[1], total[2], total[3], discretisation_.origin, total[7], {}, {}};
-  energies.zone_force = Eigen::Vector3d(total[8], total[9], total[10]);
-  energies.zone_moment = Eigen::Vector3d(total[11], total[12], total[13]) + discretisation_.origin.cross(energies.zone_force);
-  if (energies.mass > 0) energies.mass_centre += Eigen::Vector3d(total[4], total[5], total[6]) / energies.mass;
+  std::vector<std::int64_t> sums = energy_sums_.download();
+  if (part_) sums = part_->parting().group->sums(sums);
+  std::vector<double> total;
+  for (int k = 0; k < field::energy_count; ++k) total.push_back(exact_value(sums.data(), k, field::energy_count, energy_quanta_[k]));
+  const auto vector = [&total](int first) { return Eigen::Vector3d(total[first], total[first + 1], total[first + 2]); };
+  FluidEnergies energies;
+  energies.kinetic = total[field::energy_kinetic];
+  energies.potential = total[field::energy_potential];
+  energies.compression = total[field::energy_compression];
+  energies.mass = total[field::energy_mass];
+  energies.damper_power = total[field::energy_damper];
+  energies.zone_force = vector(field::energy_zone_force);
+  energies.zone_moment = vector(field::energy_zone_moment) + discretisation_.origin.cross(energies.zone_force);
+  energies.mass_centre = discretisation_.origin;
+  if (energies.mass > 0) energies.mass_centre += vector(field::energy_moment) / energies.mass;
   // from the grid's origin to the tank's floor
   const Eigen::Vector3d up = upward(case_);
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();

@@ -245,6 +245,44 @@ TEST(PartedSolver, AlsoInAPeriodicTank) {
   expect_same_bits(scene, 100, {2, 3});
 }
 
+std::vector<double> readings(Solver& solver, const PointSet& points) {
+  std::vector<double> numbers;
+  const auto add = [&numbers](const Vector3d& vector) { numbers.insert(numbers.end(), vector.data(), vector.data() + 3); };
+  for (const PointValue& value : solver.evaluate(points)) {
+    numbers.insert(numbers.end(), {value.pressure, value.filling, value.shepard});
+    add(value.velocity);
+  }
+  for (const WallWrench& wrench : solver.wrenches())
+    for (const Vector3d& part : wrench) add(part);
+  const FluidEnergies energies = solver.energies();
+  numbers.insert(numbers.end(), {energies.kinetic, energies.potential, energies.compression, energies.mass});
+  add(energies.mass_centre);
+  return numbers;
+}
+
+/// What the parts find of points, forces and energies is what the solver of all the water finds; and no step depends on it.
+TEST(PartedSolver, PartsReadWhatTheWholeHas) {
+  Case scene = running_out(2);
+  scene.fluid.spacing = 0.04;
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.scheme = Scheme::riemann_parshikov;
+  scene.bodies = {afloat("box", Box{Vector3d(0.34, 0, 0.2), Vector3d(0.46, 0, 0.44)})};
+  PartedTank tank(scene, 2, spoiled());
+  std::vector<Vector3d> places;
+  for (double x = 0; x <= 1.2; x += 0.013)
+    for (double z = 0; z <= 0.4; z += 0.05) places.emplace_back(x, 0, z);
+  const std::unique_ptr<PointSet> points = tank.solver->make_points({Vector3d(0.1, 0, 0.1)}, PointValues::velocity);
+  ASSERT_TRUE(tank.run(40));
+  EXPECT_GT(tank.solver->evaluate(*points)[0].pressure, 0);
+  points->set(places);
+  const std::vector<double> by_parts = readings(*tank.solver, *points);
+  tank.solver->save();  // brings all the water to one solver
+  EXPECT_TRUE(readings(*tank.solver, *points) == by_parts);
+  ASSERT_TRUE(tank.run(10));
+  EXPECT_FALSE(readings(*tank.solver, *points) == by_parts);
+  EXPECT_TRUE(tank.solver->save() == state_after(scene, 2, 50));
+}
+
 TEST(PartedSolver, CutsDoNotMatter) {
   Case scene = running_out(2);
   scene.fluid.spacing = 0.04;

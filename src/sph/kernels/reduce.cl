@@ -116,15 +116,6 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
   report[REPORT_STEP] = fmin(step, longest);
 }
 
-#define ENERGY_KINETIC 0
-#define ENERGY_POTENTIAL 1    // about the grid's origin
-#define ENERGY_COMPRESSION 2
-#define ENERGY_MASS 3
-#define ENERGY_MOMENT 4       // Σ m x, m y, m z from the grid's origin
-#define ENERGY_DAMPER 7       // a second, that the acoustic damper takes
-#define ENERGY_ZONE_FORCE 8   // N, that damping zones take
-#define ENERGY_ZONE_MOMENT 11 // and its moment about the grid's origin
-
 // Water whose tension is taken away stores none.
 INLINE real stored_energy(real s) { return stored_energy_of(CLAMP_PRESSURE ? fmax(s, R(0.0)) : s); }
 
@@ -165,26 +156,30 @@ __kernel void sum_exact_rows(int rows, int columns, __global const long* from, _
   to[item] = sum;
 }
 
+// Of particles' energies and moments; `quanta`: of each of these sums, a unit.
 __kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const real* rates,
-                            int damping_count, __global const real* dampings, __global real* energies) {
+                            int damping_count, __global const real* dampings, __global const real* quanta, __global long* energies) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
-  real sums[ENERGY_COUNT], rests[ENERGY_COUNT];
-  for (int k = 0; k < ENERGY_COUNT; ++k) sums[k] = rests[k] = R(0.0);
+  const int places = EXACT(ENERGY_COUNT);
+  long sums[EXACT(ENERGY_COUNT)] = {0};
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+#ifdef PARTED
+    if (state[FIELD_OWN * stride + i] == R(0.0)) continue;
+#endif
+    real values[ENERGY_COUNT] = {R(0.0)};
     const real mass = state[FIELD_MASS * stride + i];
     const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
     const real s = state[FIELD_COMPRESSION * stride + i];
     const real fall = p->gravity_x * state[FIELD_X * stride + i] + p->gravity_y * state[FIELD_Y * stride + i] + p->gravity_z * state[FIELD_Z * stride + i];
-    add_compensated(R(0.5) * mass * (u * u + v * v + w * w), &sums[ENERGY_KINETIC], &rests[ENERGY_KINETIC]);
-    add_compensated(-mass * fall, &sums[ENERGY_POTENTIAL], &rests[ENERGY_POTENTIAL]);
-    add_compensated(p->sound_speed * p->sound_speed * mass * stored_energy(s), &sums[ENERGY_COMPRESSION], &rests[ENERGY_COMPRESSION]);
-    add_compensated(mass, &sums[ENERGY_MASS], &rests[ENERGY_MASS]);
-    for (int axis = 0; axis < 3; ++axis)
-      add_compensated(mass * state[(FIELD_X + axis) * stride + i], &sums[ENERGY_MOMENT + axis], &rests[ENERGY_MOMENT + axis]);
+    values[ENERGY_KINETIC] = R(0.5) * mass * (u * u + v * v + w * w);
+    values[ENERGY_POTENTIAL] = -mass * fall;
+    values[ENERGY_COMPRESSION] = p->sound_speed * p->sound_speed * mass * stored_energy(s);
+    values[ENERGY_MASS] = mass;
+    for (int axis = 0; axis < 3; ++axis) values[ENERGY_MOMENT + axis] = mass * state[(FIELD_X + axis) * stride + i];
 #if ACOUSTIC_DAMPER
-    const real rate = rates[RATE_COMPRESSION * stride + i];
-    add_compensated(state[FIELD_VOLUME * stride + i] * rate * damper_pressure(p, s, rate), &sums[ENERGY_DAMPER], &rests[ENERGY_DAMPER]);
+    const real compressing = rates[RATE_COMPRESSION * stride + i];
+    values[ENERGY_DAMPER] = state[FIELD_VOLUME * stride + i] * compressing * damper_pressure(p, s, compressing);
 #endif
     for (int k = 0; k < damping_count; ++k) {
       __global const real* zone = dampings + k * DAMPING_COUNT;
@@ -194,13 +189,13 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
       for (int axis = 0; axis < 3; ++axis) force[axis] = rate * (state[(FIELD_U + axis) * stride + i] - zone[DAMPING_VELOCITY + axis]);
       for (int axis = 0; axis < 3; ++axis) {
         const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-        const real moment = state[(FIELD_X + next) * stride + i] * force[last] - state[(FIELD_X + last) * stride + i] * force[next];
-        add_compensated(force[axis], &sums[ENERGY_ZONE_FORCE + axis], &rests[ENERGY_ZONE_FORCE + axis]);
-        add_compensated(moment, &sums[ENERGY_ZONE_MOMENT + axis], &rests[ENERGY_ZONE_MOMENT + axis]);
+        values[ENERGY_ZONE_FORCE + axis] += force[axis];
+        values[ENERGY_ZONE_MOMENT + axis] += state[(FIELD_X + next) * stride + i] * force[last] - state[(FIELD_X + last) * stride + i] * force[next];
       }
     }
+    for (int k = 0; k < ENERGY_COUNT; ++k) add_exact(sums, k, places, quanta[k] * values[k]);
   }
-  for (int k = 0; k < ENERGY_COUNT; ++k) energies[chunk * ENERGY_COUNT + k] = sums[k];
+  for (int k = 0; k < places; ++k) energies[(long)chunk * places + k] = sums[k];
 }
 
 // Packing's report: Σ (h |E|)².

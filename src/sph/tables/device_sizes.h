@@ -101,7 +101,16 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(damping_strength, 10, "1/s, at its end") \
   ROW(damping_velocity, 11, "m/s, towards which") \
   ROW(damping_count, 14, "values of a damping zone") \
-  ROW(energy_count, 14, "kinetic, potential, of compression, mass, three moments of mass, the acoustic damper's power, force and moment on damping zones") \
+  /* of the energies */ \
+  ROW(energy_kinetic, 0, "J") \
+  ROW(energy_potential, 1, "J, about the grid's origin") \
+  ROW(energy_compression, 2, "J") \
+  ROW(energy_mass, 3, "kg") \
+  ROW(energy_moment, 4, "Σ m x, m y, m z from the grid's origin") \
+  ROW(energy_damper, 7, "W, that the acoustic damper takes") \
+  ROW(energy_zone_force, 8, "N, that damping zones take") \
+  ROW(energy_zone_moment, 11, "and its moment about the grid's origin") \
+  ROW(energy_count, 14, "values") \
   ROW(reduce_chunk, 256, "values that one work-item sums") \
   ROW(scan_block, 256, "values that one work-item goes through for a running total")
 // clang-format on
