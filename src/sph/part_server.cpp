@@ -65,6 +65,41 @@ Eigen::Vector3d vector_from(Unpacked& from) {
   return vector;
 }
 
+NewParticles new_particles_from(Unpacked& from) {
+  NewParticles particles;
+  particles.position = vectors_of(from.values<double>());
+  particles.velocity = vectors_of(from.values<double>());
+  particles.volume = from.values<double>();
+  particles.pressure = from.values<double>();
+  return particles;
+}
+
+std::vector<Drain> drains_from(Unpacked& from) {
+  std::vector<Drain> drains(from.value<std::size_t>());
+  for (Drain& drain : drains) {
+    drain.centre = vector_from(from);
+    for (int k = 0; k < 3; ++k) drain.half_edges.col(k) = vector_from(from);
+  }
+  return drains;
+}
+
+std::vector<ImposedZone> zones_from(Unpacked& from) {
+  std::vector<ImposedZone> zones(from.value<std::size_t>());
+  for (ImposedZone& zone : zones) {
+    for (Eigen::Vector3d* vector : {&zone.centre, &zone.normal, &zone.across, &zone.up, &zone.drift, &zone.heading}) *vector = vector_from(from);
+    for (int k = 0; k < 3; ++k) zone.turning.col(k) = vector_from(from);
+    zone.depth = from.value<double>();
+    zone.cells = from.value<std::array<int, 2>>();
+    zone.cell_size = from.value<std::array<double, 2>>();
+    zone.first_edge = from.value<std::array<double, 2>>();
+    zone.layers = from.value<int>();
+    zone.speed = from.values<double>();
+    zone.pressure = from.values<double>();
+    zone.is_free = from.values<char>();
+  }
+  return zones;
+}
+
 /// Bodies are with the first part, and walls of all parts go with them.
 class TeamMover final : public WallMover {
  public:
@@ -148,6 +183,15 @@ class PartServerOf final : public PartServer {
       }
       case PartOrder::evaluate:
         return evaluate(points_.at(from.value<int>()));
+      case PartOrder::let_in:
+        solver_.let_in(new_particles_from(from));
+        return {};
+      case PartOrder::drains:
+        solver_.set_drains(drains_from(from));
+        return {};
+      case PartOrder::zones:
+        solver_.set_zones(zones_from(from));
+        return {};
       case PartOrder::wrenches:
         wrenches_ = solver_.wrenches();
         return {};
@@ -169,6 +213,7 @@ class PartServerOf final : public PartServer {
   const StepReport& report() const override { return report_; }
   double time_step() const override { return time_step_; }
   double imbalance() const override { return solver_.imbalance(); }
+  std::size_t particles() const override { return solver_.particles_of_all(); }
   void lead(WallMover* mover) override { leading_ = mover; }
   const std::optional<WallMotions>& motions() const override { return motions_; }
   const std::vector<WallWrench>& wrenches() const override { return wrenches_; }
@@ -257,6 +302,34 @@ std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors) {
 
 parallel::Bytes packed(const FirstOrder& order) {
   return Packed().value(PartOrder::begin).value(order.parting).values(numbers_of(order.centres)).text(order.scene).take();
+}
+
+Bytes let_in_order(const NewParticles& particles) {
+  Packed order;
+  order.value(PartOrder::let_in).values(numbers_of(particles.position)).values(numbers_of(particles.velocity));
+  return order.values(particles.volume).values(particles.pressure).take();
+}
+
+Bytes drains_order(const std::vector<Drain>& drains) {
+  Packed order;
+  order.value(PartOrder::drains).value(drains.size());
+  for (const Drain& drain : drains) {
+    add(order, drain.centre);
+    for (int k = 0; k < 3; ++k) add(order, drain.half_edges.col(k));
+  }
+  return order.take();
+}
+
+Bytes zones_order(const std::vector<ImposedZone>& zones) {
+  Packed order;
+  order.value(PartOrder::zones).value(zones.size());
+  for (const ImposedZone& zone : zones) {
+    for (const Eigen::Vector3d& vector : {zone.centre, zone.normal, zone.across, zone.up, zone.drift, zone.heading}) add(order, vector);
+    for (int k = 0; k < 3; ++k) add(order, zone.turning.col(k));
+    order.value(zone.depth).value(zone.cells).value(zone.cell_size).value(zone.first_edge).value(zone.layers);
+    order.values(zone.speed).values(zone.pressure).values(zone.is_free);
+  }
+  return order.take();
 }
 
 void add_motions(Packed& to, const WallMotions& motions) {

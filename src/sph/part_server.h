@@ -24,6 +24,9 @@ enum class PartOrder : char {
   shorten,  ///< s, of the next step
   limit,    ///< s, of every step
   film,     ///< lumps
+  let_in,   ///< NewParticles at the end of the next step, of which each part takes its own
+  drains,   ///< Drains
+  zones,    ///< ImposedZones
   save,     ///< replies with the state of the part's own particles
   cut,      ///< cuts, and a state of all the water, of which the part takes what is its
   memory,   ///< replies with the bytes on its device
@@ -52,6 +55,10 @@ struct PartFacts {
 parallel::Bytes packed(const PartFacts& facts);
 PartFacts part_facts(const parallel::Bytes& bytes);
 
+parallel::Bytes let_in_order(const NewParticles& particles);
+parallel::Bytes drains_order(const std::vector<Drain>& drains);
+parallel::Bytes zones_order(const std::vector<ImposedZone>& zones);
+
 /// x, y, z of each, one after the other.
 std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors);
 void add_motions(parallel::Packed& to, const WallMotions& motions);
@@ -69,6 +76,8 @@ class PartServer {
   virtual double time_step() const = 0;
   /// As SphSolver has it.
   virtual double imbalance() const = 0;
+  /// Of all the water.
+  virtual std::size_t particles() const = 0;
   /// Of the part that has bodies: who moves them in the next step.
   virtual void lead(WallMover* mover) = 0;
   /// As they were asked for last, the same of all parts.

@@ -20,8 +20,7 @@ using parallel::Packed;
 using parallel::Unpacked;
 
 /// What parts cannot do yet, as the key of the case that asks for it; "" if there is nothing.
-std::string refused(const Case& scene, const Layout& layout) {
-  if (!layout.openings.empty()) return "the case has openings";
+std::string refused(const Case& scene) {
   const auto is_periodic = [&](int axis) { return scene.tank.periodic[axis] || (axis == 1 && scene.dimensions == 2); };
   if (is_periodic(0) && is_periodic(1) && is_periodic(2)) return "the tank is periodic along all axes";
   return "";
@@ -93,7 +92,8 @@ class PartedSolver final : public Solver {
         threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns)),
         team_(*threads_),
         whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
-        parting_(parting_for(scene, discretisation, layout.particles.size())) {
+        is_open_(!layout.openings.empty()),
+        parting_(parting_for(scene, discretisation)) {
     for (int rank = 0; rank < team_.size(); ++rank) add_part(rank, devices[rank], scene, layout, discretisation, centres);
     check_room();
   }
@@ -103,7 +103,8 @@ class PartedSolver final : public Solver {
                const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : team_(team),
         whole_(rows_for(scene), device, scene, layout, discretisation, centres),
-        parting_(parting_for(scene, discretisation, layout.particles.size())) {
+        is_open_(!layout.openings.empty()),
+        parting_(parting_for(scene, discretisation)) {
     check_room();
     const std::vector<Bytes> replies = team_.ask(packed(FirstOrder{parting_, centres, scene_text}), [&](int rank, const Bytes&) {
       add_part(rank, device, scene, layout, discretisation, centres);
@@ -130,6 +131,7 @@ class PartedSolver final : public Solver {
 
   StepReport advance(WallMover* mover) override {
     if (stale_parts_ || is_time_to_cut()) cut();
+    for (const Bytes& order : std::exchange(coming_, {})) ask(order);
     stale_whole_ = true;
     parts_[0]->lead(mover);
     const std::vector<int> coupled = mover != nullptr ? mover->coupled() : std::vector<int>();
@@ -163,15 +165,18 @@ class PartedSolver final : public Solver {
     ask(Packed().value(PartOrder::shorten).value(longest));
     return parts_[0]->time_step();
   }
-  std::size_t particle_count() const override { return whole_.particle_count(); }
+  std::size_t particle_count() const override { return stale_whole_ ? parts_[0]->particles() : whole_.particle_count(); }
   void let_in(const NewParticles& particles) override {
-    if (!particles.position.empty()) refuse("particles come in");
+    check(particles);
+    coming_.push_back(let_in_order(particles));
   }
   void set_drains(const std::vector<Drain>& drains) override {
-    if (!drains.empty()) refuse("the case has drains");
+    whole_.set_drains(drains);
+    ask(drains_order(drains));
   }
   void set_zones(const std::vector<ImposedZone>& zones) override {
-    if (!zones.empty()) refuse("the case has openings");
+    whole_.set_zones(zones);
+    ask(zones_order(zones));
   }
   std::optional<ThinWall> thinnest_wall() const override { return whole_.thinnest_wall(); }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override {
@@ -214,6 +219,7 @@ class PartedSolver final : public Solver {
     stale_whole_ = false;
     stale_parts_ = true;
     has_started_ = true;
+    coming_.clear();
   }
   std::size_t device_memory() const override {
     const std::vector<Bytes> replies = ask(PartOrder::memory);
@@ -223,10 +229,6 @@ class PartedSolver final : public Solver {
   }
 
  private:
-  [[noreturn]] static void refuse(const std::string& why) {
-    throw Error(why + ", which several devices cannot do together yet: choose one device.");
-  }
-
   void add_part(int rank, const compute::Device& device, const Case& scene, const Layout& layout, const Discretisation& discretisation,
                 const std::vector<Eigen::Vector3d>& centres) {
     Parting parting = parting_;
@@ -240,7 +242,7 @@ class PartedSolver final : public Solver {
   std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
   std::vector<Bytes> ask(PartOrder order) const { return ask(Packed().value(order)); }
 
-  Parting parting_for(const Case& scene, const Discretisation& d, std::size_t particles) const {
+  Parting parting_for(const Case& scene, const Discretisation& d) const {
     Parting parting;
     parting.axis = axis_of_parts(scene, d);
     const GridShape& grid = whole_.grid();
@@ -253,7 +255,7 @@ class PartedSolver final : public Solver {
     parting.block = supports * places_a_support;
     parting.segment = slots_of_segment(d, grid);
     parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
-    parting.particles = particles;
+    parting.room = whole_.room();
     parting.spoils = options_.spoils;
     return parting;
   }
@@ -272,7 +274,9 @@ class PartedSolver final : public Solver {
   /// Throws if the water is too short for so many parts.
   void check_room() { cuts_for(whole_.particles_in_blocks(parting_)); }
 
-  std::vector<int> cuts_for(const std::vector<std::int64_t>& weights) const {
+  std::vector<int> cuts_for(std::vector<std::int64_t> weights) const {
+    // where water comes in, there may be none yet
+    for (std::int64_t& weight : weights) weight = is_open_ ? 1000 * weight + 1 : weight;
     std::vector<int> cuts = parallel::cut_into_slabs(weights, team_.size(), least_blocks());
     if (options_.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options_.uneven, least_blocks(), cuts[2] - least_blocks());
     return cuts;
@@ -324,8 +328,10 @@ class PartedSolver final : public Solver {
   std::unique_ptr<parallel::ThreadGroup> threads_;  ///< of parts in this process
   parallel::Team& team_;
   mutable SphSolver<Real> whole_;
+  bool is_open_;  ///< water may come in
   Parting parting_;
   std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
+  std::vector<Bytes> coming_;                       ///< orders to let particles in
   std::vector<double> film_;                        ///< that the parts know of
   mutable int next_points_ = 0;
   std::optional<WallMotions> motions_;              ///< of walls that have moved, now
@@ -341,7 +347,7 @@ class PartedSolver final : public Solver {
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
                                            const PartedSolverOptions& options) {
-  const std::string why = refused(scene, layout);
+  const std::string why = refused(scene);
   if (!why.empty())
     throw Error("device names " + std::to_string(devices.size()) + " devices, but " + why +
                 ", which several devices cannot do together yet: choose one device.");
@@ -354,7 +360,7 @@ std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& d
 std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
                                            const Case& scene, const Layout& layout, const Discretisation& discretisation,
                                            const std::vector<Eigen::Vector3d>& centres) {
-  const std::string why = refused(scene, layout);
+  const std::string why = refused(scene);
   if (!why.empty())
     throw Error("mpirun has started " + std::to_string(team.size()) + (team.size() == 1 ? " rank" : " ranks") + ", but " + why +
                 ", which several devices cannot do together yet: run it without mpirun.");

@@ -21,7 +21,7 @@ struct Parting {
   int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks
   int segment = 0;                   ///< slots, of which tiles have particles together
   int places = 0;                    ///< in all
-  std::size_t particles = 0;         ///< in all parts together
+  std::size_t room = 0;              ///< for particles in all parts together, by which the grid is as fine as it is
   bool spoils = false;               ///< for tests: what others have not sent yet is not a number
 
   int blocks() const { return (places + block - 1) / block; }

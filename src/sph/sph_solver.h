@@ -26,6 +26,9 @@
 
 namespace wavetank {
 
+/// Throws Error as Solver::let_in does.
+void check(const NewParticles& particles);
+
 /// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_population.cpp (how many particles
 /// there are), sph_solver_parts.cpp (one part of the water among others), sph_solver_readings.cpp and sph_solver_snapshot.cpp.
 template <class Real>
@@ -72,6 +75,10 @@ class SphSolver final : public Solver, private StepEngine {
   void set_cuts(const std::vector<int>& cuts);
   /// What the parts have saved of their own particles, as one would save it that had them all.
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
+  /// Of all the water, wherever it is cut.
+  std::size_t particles_of_all() const { return static_cast<std::size_t>(part_ ? part_->all : count_); }
+  /// Particles that there may be.
+  std::size_t room() const { return room_; }
   /// Particles of the part that has the most, over those of the mean; after a step the same on all parts.
   double imbalance() const;
   /// Which of these points lie where the part has its own particles: every point does in one part.
@@ -101,7 +108,7 @@ class SphSolver final : public Solver, private StepEngine {
   void set_count(int count);
   /// Room for so many particles at least.
   void reserve(int count);
-  /// Those that wait to come in take the next places.
+  /// Those that wait to come in take the next places; of a part those that are its own, but ids and masses are those of all.
   void add_waiting();
   void check_nobody_came() const;
   /// All stay in the water, wherever drains are.
@@ -206,6 +213,9 @@ class SphSolver final : public Solver, private StepEngine {
   StepReport watch();
   /// Those that have left in this step, which lie after all others; there are `before` with them.
   std::vector<LeftParticle> find_left(int before) const;
+  /// The same of all parts, at the first; to the others how many they were.
+  std::vector<LeftParticle> gather_left();
+  std::vector<LeftParticle> left_of(const typename WaterPart<Real>::Arrived& gone) const;
   void describe_offender(StepReport& report, int first) const;
 
   struct Kernels {
@@ -231,12 +241,14 @@ class SphSolver final : public Solver, private StepEngine {
   Discretisation discretisation_;
   int count_ = 0;  ///< of particles; those that leave in a step are left out when it has been watched
   int given_ = 0;  ///< at the start
+  std::size_t room_ = 0;
   std::int64_t next_id_ = 0;
   NewParticles waiting_;  ///< to come in
   Drains<Real> drains_;
   Zones<Real> zones_;
   DampingZones<Real> damping_;
   std::vector<double> masses_let_in_;  ///< kg, in the present step
+  std::vector<LeftParticle> left_;     ///< likewise, of a part
   bool open_ = false;                  ///< particles may come or go
   Stride stride_ = 0;                  ///< at least that many particles have room
   int chunks_ = 0;

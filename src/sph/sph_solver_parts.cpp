@@ -6,6 +6,7 @@
 
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
+#include "wavetank/parallel/packed.h"
 
 namespace wavetank {
 namespace {
@@ -52,6 +53,7 @@ template <class Real>
 void SphSolver<Real>::bind_part() {
   compute::Arguments all = arguments();
   all.memory("state", state_).memory("half_state", half_).memory("rates", rates_).memory("guard_hits", guarded_.hits);
+  drains_.add_to(all);
   part_->bind(*make_, all, surroundings_.grid.starts(), case_.numerics.integrator == Integrator::symplectic);
   const auto carry = [&](const char* name, const std::vector<int>& places, Buffer& array) {
     if (!places.empty()) part_->carry(name, places, std::as_const(array), array, *make_, all);
@@ -114,8 +116,11 @@ void SphSolver<Real>::run_with_exchanges() {
 
 template <class Real>
 void SphSolver<Real>::sort_part() {
+  add_waiting();
   const int before = count_;
-  const std::vector<typename WaterPart<Real>::Arrived> arrived = part_->exchange_particles(count_);
+  typename WaterPart<Real>::Arrived gone;
+  const std::vector<typename WaterPart<Real>::Arrived> arrived = part_->exchange_particles(count_, gone);
+  left_ = left_of(gone);
   int all = before;
   for (const auto& some : arrived) all += static_cast<int>(some.id.size());
   reserve(all);
@@ -128,6 +133,46 @@ void SphSolver<Real>::sort_part() {
   }
   part_->still_others(before, all - before);
   sort_alone();
+}
+
+template <class Real>
+std::vector<LeftParticle> SphSolver<Real>::left_of(const typename WaterPart<Real>::Arrived& gone) const {
+  const std::size_t count = gone.id.size();
+  const auto value = [&](const char* component, std::size_t k) {
+    return static_cast<double>(gone.values[static_cast<std::size_t>(fields_.at(ParticleArray::state, component)) * count + k]);
+  };
+  std::vector<LeftParticle> left;
+  for (std::size_t k = 0; k < count; ++k)
+    left.push_back({gone.id[k], value("mass", k), discretisation_.origin + Eigen::Vector3d(value("x", k), value("y", k), value("z", k))});
+  return left;
+}
+
+template <class Real>
+std::vector<LeftParticle> SphSolver<Real>::gather_left() {
+  parallel::Group& group = *part_->parting().group;
+  std::vector<LeftParticle> all = std::exchange(left_, {});
+  if (!open_) return all;
+  if (group.rank() != 0) {
+    parallel::Packed message;
+    message.value(all.size());
+    for (const LeftParticle& left : all)
+      message.value(left.id).value(left.mass).value(left.position.x()).value(left.position.y()).value(left.position.z());
+    group.send(0, message.take());
+    return {};
+  }
+  for (int rank = 1; rank < group.size(); ++rank) {
+    const parallel::Bytes bytes = group.receive(rank);
+    parallel::Unpacked from(bytes);
+    for (auto count = from.value<std::size_t>(); count > 0; --count) {
+      LeftParticle left;
+      left.id = from.value<std::uint32_t>();
+      left.mass = from.value<double>();
+      for (int axis = 0; axis < 3; ++axis) left.position[axis] = from.value<double>();
+      all.push_back(left);
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const LeftParticle& a, const LeftParticle& b) { return a.id < b.id; });
+  return all;
 }
 
 template <class Real>
@@ -151,6 +196,7 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   }
   greatest.push_back(counted[reports_.integer("particles")]);
   greatest = group.greatest(greatest);
+  counts.push_back(static_cast<std::int64_t>(left_.size()));
   counts = group.sums(counts);
   part_->most_own = static_cast<std::int64_t>(greatest.back());
   std::map<std::string, double> found;
@@ -159,10 +205,13 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
     if (row.kind == ReportRow::Kind::greatest) found[row.name] = greatest[next_greatest++];
     if (row.kind == ReportRow::Kind::count) found[row.name] = static_cast<double>(counts[next_count++]);
   }
-  if (found["particles"] != static_cast<double>(part_->parting().particles))
-    throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
-                " particles together, not " + std::to_string(part_->parting().particles) + ": some were lost between them");
   StepReport report;
+  report.let_in = std::exchange(masses_let_in_, {});
+  part_->all += static_cast<std::int64_t>(report.let_in.size()) - counts.back();
+  if (found["particles"] != static_cast<double>(part_->all))
+    throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
+                " particles together, not " + std::to_string(part_->all) + ": some were lost between them");
+  report.left = gather_left();
   report.greatest_speed = greatest_speed_ = found["speed"];
   report.greatest_acceleration = greatest_acceleration_ = found["acceleration"];
   // as reduce.cl has it
@@ -243,7 +292,8 @@ double SphSolver<Real>::greatest_drift() const {
 template <class Real>
 double SphSolver<Real>::imbalance() const {
   const Parting& parting = part_->parting();
-  return static_cast<double>(part_->most_own) * parting.group->size() / static_cast<double>(parting.particles);
+  if (part_->all == 0) return 1;
+  return static_cast<double>(part_->most_own) * parting.group->size() / static_cast<double>(part_->all);
 }
 
 template <class Real>
@@ -264,6 +314,8 @@ std::uint64_t SphSolver<Real>::digest() const {
   template void SphSolver<Real>::spoil(const char*);                                                   \
   template void SphSolver<Real>::run_with_exchanges();                                                 \
   template void SphSolver<Real>::sort_part();                                                          \
+  template std::vector<LeftParticle> SphSolver<Real>::left_of(const WaterPart<Real>::Arrived&) const;  \
+  template std::vector<LeftParticle> SphSolver<Real>::gather_left();                                   \
   template void SphSolver<Real>::sort_alone();                                                         \
   template StepReport SphSolver<Real>::watch_parts(const std::vector<Real>&, const std::vector<int>&); \
   template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \

@@ -9,7 +9,6 @@
 #include "wavetank/common/error.h"
 
 namespace wavetank {
-namespace {
 
 void check(const NewParticles& particles) {
   const std::size_t count = particles.position.size();
@@ -22,6 +21,8 @@ void check(const NewParticles& particles) {
         !(particles.volume[k] > 0) || !std::isfinite(particles.volume[k]))
       throw Error("particle " + std::to_string(k) + " of those that are to come in has a value that is not finite, or no volume");
 }
+
+namespace {
 
 void check(const Drain& drain) {
   const Eigen::Vector3d sizes = drain.half_edges.colwise().norm();
@@ -88,7 +89,10 @@ void SphSolver<Real>::check_nobody_came() const {
 template <class Real>
 void SphSolver<Real>::sort_all() {
   drains_.close(true);
-  sort();
+  if (part_)
+    sort_alone();
+  else
+    sort();
   drains_.close(false);
 }
 
@@ -125,40 +129,49 @@ void SphSolver<Real>::reserve(int count) {
 
 template <class Real>
 void SphSolver<Real>::add_waiting() {
-  const auto count = static_cast<int>(waiting_.position.size());
-  if (count == 0) return;
-  if (next_id_ + count > std::numeric_limits<std::uint32_t>::max())
+  const std::vector<int> own = part_ ? own_points(waiting_.position) : std::vector<int>();
+  const auto coming = static_cast<int>(waiting_.position.size());
+  const int count = part_ ? static_cast<int>(own.size()) : coming;
+  if (coming == 0) return;
+  if (next_id_ + coming > std::numeric_limits<std::uint32_t>::max())
     throw Error("more than " + std::to_string(std::numeric_limits<std::uint32_t>::max()) + " particles have come in: ids have run out");
   reserve(count_ + count);
   const double stiffness = case_.fluid.density * discretisation_.sound_speed * discretisation_.sound_speed;
   std::vector<Real> state(fields_.count(ParticleArray::state) * static_cast<std::size_t>(count), Real(0));
   const auto put = [&](int place, int k, double value) { state[static_cast<std::size_t>(place) * count + k] = static_cast<Real>(value); };
   const auto at = [this](const char* component) { return fields_.at(ParticleArray::state, component); };
+  std::vector<double> compressions(coming);
+  for (int j = 0; j < coming; ++j) {
+    compressions[j] = compression_at(waiting_.pressure[j] / stiffness, case_);
+    masses_let_in_.push_back(static_cast<Real>(case_.fluid.density * (1 + compressions[j]) * waiting_.volume[j]));
+  }
   std::vector<std::uint32_t> id(count);
   for (int k = 0; k < count; ++k) {
-    id[k] = static_cast<std::uint32_t>(next_id_ + k);
-    Eigen::Vector3d place = waiting_.position[k], velocity = waiting_.velocity[k];
+    const int j = part_ ? own[k] : k;
+    id[k] = static_cast<std::uint32_t>(next_id_ + j);
+    Eigen::Vector3d place = waiting_.position[j], velocity = waiting_.velocity[j];
     if (case_.dimensions == 2) place.y() = velocity.y() = 0;
     set_place(state, count, k, place);
     for (int axis = 0; axis < 3; ++axis) put(static_cast<int>(first_.velocity) + axis, k, velocity[axis]);
-    const double compression = compression_at(waiting_.pressure[k] / stiffness, case_);
-    put(at("compression"), k, compression);
-    put(at("pressure"), k, waiting_.pressure[k]);
-    put(at("volume"), k, waiting_.volume[k]);
-    put(at("mass"), k, case_.fluid.density * (1 + compression) * waiting_.volume[k]);
-    masses_let_in_.push_back(state[static_cast<std::size_t>(at("mass")) * count + k]);
+    put(at("compression"), k, compressions[j]);
+    put(at("pressure"), k, waiting_.pressure[j]);
+    put(at("volume"), k, waiting_.volume[j]);
+    put(at("mass"), k, case_.fluid.density * (1 + compressions[j]) * waiting_.volume[j]);
+    if (part_) put(at("own"), k, 1);
   }
   const auto write = [&](Buffer& to, std::size_t component, const Real* from) {
     to.memory().write(from, count * sizeof(Real), (component * static_cast<std::size_t>(stride_) + count_) * sizeof(Real));
   };
-  for (int f = 0; f < fields_.count(ParticleArray::state); ++f) write(state_, f, &state[static_cast<std::size_t>(f) * count]);
+  for (int f = 0; count > 0 && f < fields_.count(ParticleArray::state); ++f) write(state_, f, &state[static_cast<std::size_t>(f) * count]);
   // what the places held of particles that have left
   const std::vector<Real> nothing(count, Real(0));
-  for (int f = 0; f < fields_.count(ParticleArray::rates); ++f) write(rates_, f, nothing.data());
-  guarded_.clear_hits(count_, count);
-  id_.memory().write(id.data(), count * sizeof(std::uint32_t), count_ * sizeof(std::uint32_t));
+  for (int f = 0; count > 0 && f < fields_.count(ParticleArray::rates); ++f) write(rates_, f, nothing.data());
+  if (count > 0) {
+    guarded_.clear_hits(count_, count);
+    id_.memory().write(id.data(), count * sizeof(std::uint32_t), count_ * sizeof(std::uint32_t));
+  }
   set_count(count_ + count);
-  next_id_ += count;
+  next_id_ += coming;
   waiting_ = NewParticles();
 }
 

@@ -111,6 +111,8 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   const std::vector<double> impulses = blocks.get<double>(guard_block, guarded_.values().size());
   blocks.expect_no_others(names);
   if (part_) {
+    part_->all = static_cast<std::int64_t>(id.size());
+    left_.clear();
     const int axis = part_->parting().axis;
     const std::vector<int> mine = in_part(blocks.get<Real>(std::string("particles: ") + "xyz"[axis], id.size()));
     const auto pick = [&](auto& all) {
@@ -153,10 +155,7 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   around_.fill_zero();
   state_.upload(state);
   id_.upload(id);
-  if (part_)
-    sort_alone();
-  else
-    sort_all();
+  sort_all();
   upload_by_id(rates_, fields_.count(ParticleArray::rates), arrays[SavedArray::rates]);
   if (holds_gradients_) find_own_gradients();  // of a snapshot without them; of another they are listed by it
   if (with_gradients) upload_by_id(gradient_, gradient_count(), arrays[SavedArray::gradients]);

@@ -23,7 +23,7 @@ WaterPart<Real>::WaterPart(const compute::Device& device, const Parting& parting
       rows_(rows),
       slots_(slots),
       tile_(tile),
-      sent_(device, 2),
+      sent_(device, 3),
       edge_runs_(device, 8 * static_cast<std::size_t>(rows)) {
   list_.set(device, {0});
   grow(1, 1);
@@ -33,7 +33,7 @@ template <class Real>
 void WaterPart<Real>::reserve(Stride stride) {
   if (stride <= stride_) return;
   stride_ = stride;
-  chosen_ = compute::Buffer<int>(device_, 2 * static_cast<std::size_t>(stride));
+  chosen_ = compute::Buffer<int>(device_, 3 * static_cast<std::size_t>(stride));
   chosen_room_ = static_cast<int>(stride);
 }
 
@@ -88,24 +88,29 @@ void WaterPart<Real>::grow(std::size_t items, std::size_t components) {
 }
 
 template <class Real>
-std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particles(int count) {
-  Carried& state = carried_.at("state");
-  components_ = state.components;
-  sent_.upload({0, 0});
+typename WaterPart<Real>::Arrived WaterPart<Real>::chosen(int list, int count) {
+  if (count == 0) return {};
+  items_ = count;
+  first_ = list * chosen_room_;
+  grow(items_, components_);
+  carried_.at("state").pack_chosen.launch(items_);
+  pack_ids_.launch(items_);
+  return {ids_.download(items_), message_.download(static_cast<std::size_t>(items_) * components_)};
+}
+
+template <class Real>
+std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particles(int count, Arrived& gone) {
+  components_ = carried_.at("state").components;
+  sent_.upload({0, 0, 0});
   choose_.launch(count);
-  const std::vector<int> chosen = sent_.download();
+  const std::vector<int> counts = sent_.download();
+  gone = chosen(2, counts[2]);
   for (const int side : {0, 1}) {
     if (neighbour(side) < 0) continue;
-    items_ = chosen[side];
-    first_ = side * chosen_room_;
-    grow(items_, components_);
-    state.pack_chosen.launch(items_);
-    pack_ids_.launch(items_);
-    const std::vector<std::uint32_t> ids = ids_.download(items_);
-    const std::vector<Real> values = message_.download(static_cast<std::size_t>(items_) * components_);
+    const Arrived leaving = chosen(side, counts[side]);
     parallel::Bytes bytes;
-    append_values(bytes, ids.data(), ids.size());
-    append_values(bytes, values.data(), values.size());
+    append_values(bytes, leaving.id.data(), leaving.id.size());
+    append_values(bytes, leaving.values.data(), leaving.values.size());
     parting_.group->send(neighbour(side), std::move(bytes));
   }
   std::vector<Arrived> arrived;

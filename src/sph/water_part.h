@@ -18,7 +18,7 @@ namespace wavetank {
 template <class Real>
 class WaterPart {
  public:
-  /// Particles that have come from another part.
+  /// Particles that have come from another part, or leave.
   struct Arrived {
     std::vector<std::uint32_t> id;
     std::vector<Real> values;  ///< component by component of the state
@@ -37,8 +37,9 @@ class WaterPart {
              const KernelMaker& make, const compute::Arguments& arguments);
   bool carries(const std::string& name) const { return carried_.count(name) != 0; }
 
-  /// Sends those of the `count` particles that the parts beside this one need, and takes those that this one needs.
-  std::vector<Arrived> exchange_particles(int count);
+  /// Sends those of the `count` particles that the parts beside this one need, and takes those that this one needs. `gone`: own particles
+  /// that leave the water.
+  std::vector<Arrived> exchange_particles(int count, Arrived& gone);
   /// Of `count` particles and `arrived` more nothing of others is left that reports count.
   void still_others(int count, int arrived);
   /// After a sort of `count` particles: which are own, and lists of tiles and edges. Returns how many are in the part.
@@ -54,6 +55,7 @@ class WaterPart {
   int watched() const { return watched_; }
 
   std::vector<std::vector<Access>> exchanges;  ///< of each stage of the schedule
+  std::int64_t all = 0;                        ///< particles, of all parts together
   std::int64_t most_own = 0;                   ///< own particles of the part that has the most, after the last step
 
  private:
@@ -68,6 +70,7 @@ class WaterPart {
   enum { sent_before, sent_after, from_before, from_after };
 
   int neighbour(int side) const;
+  Arrived chosen(int list, int count);
   void grow(std::size_t items, std::size_t components);
 
   compute::Device device_;

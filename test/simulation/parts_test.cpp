@@ -62,11 +62,44 @@ TEST_F(Parts, HaveTheSameBodies) {
   EXPECT_TRUE(snapshot(two) == snapshot(three)) << "restored";
 }
 
+/// A channel between openings, and a tank that is dry until a hose fills it.
+TEST_F(Parts, HaveTheSameFlows) {
+  const auto opening = [](const std::string& name, OpeningKind kind, const Vector3d& centre, const Vector3d& normal) {
+    OpeningCase made;
+    made.name = name;
+    made.kind = kind;
+    made.centre = centre;
+    made.normal = normal;
+    made.size = std::array<double, 2>{0.3, 0.3};
+    made.velocity = kind == OpeningKind::inlet ? "0.5" : "";
+    return made;
+  };
+  for (const bool dry : {false, true}) {
+    Case scene = on("auto,auto");
+    scene.tank.shape = BoxTank{Vector3d(1.6, 0, 0.6), Vector3d::Zero(), false};
+    scene.bodies.clear();
+    scene.instruments = {};
+    scene.fluid.sound_speed = 30;
+    scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1.6, 0, 0.2)}};
+    if (dry) scene.fluid.fill.clear();
+    scene.openings = {opening("in", OpeningKind::inlet, Vector3d(0, 0, 0.15), Vector3d::UnitX())};
+    if (!dry) scene.openings.push_back(opening("out", OpeningKind::outlet, Vector3d(1.6, 0, 0.15), -Vector3d::UnitX()));
+    if (!dry) scene.openings[0].level = scene.openings[1].level = 0.2;
+    Simulation two(scene);
+    run_steps(two, 150);
+    scene.device = "auto,auto,auto";
+    Simulation three(scene);
+    run_steps(three, 150);
+    EXPECT_GT(two.openings()[0].mass_in, 1);
+    EXPECT_TRUE(snapshot(two) == snapshot(three)) << (dry ? "dry" : "channel");
+  }
+}
+
 TEST_F(Parts, AreRefusedWhatTheyCannotDo) {
   Case scene = on("auto,auto");
-  scene.numerics.walls.method = WallMethod::ghost;
+  scene.tank.periodic = {true, false, true};
   EXPECT_EQ(error_of([&] { Simulation simulation(scene); }),
-            "device names 2 devices, but numerics/walls/method is ghost, which several devices cannot do together yet: choose one device.");
+            "device names 2 devices, but the tank is periodic along all axes, which several devices cannot do together yet: choose one device.");
 }
 
 }  // namespace

@@ -260,6 +260,42 @@ std::vector<double> readings(Solver& solver, const PointSet& points) {
   return numbers;
 }
 
+/// Rows of particles that come in above the water, over the cut, and a drain at the tank's end.
+TEST(PartedSolver, AlsoWhereWaterComesAndGoes) {
+  Case scene = running_out(2);
+  const auto run = [&scene](int parts, const PartedSolverOptions& options) {
+    PartedTank tank(scene, parts, options);
+    tank.solver->set_drains({{Vector3d(0.9, 0, 0.2), Vector3d(0.3, 1, 0.4).asDiagonal()}});
+    std::size_t came = 0, left = 0;
+    std::vector<std::uint32_t> who;
+    for (int step = 0; step < 400; ++step) {
+      NewParticles row;
+      for (int k = 0; step % 40 == 0 && k < 18; ++k) {
+        row.position.emplace_back(0.03 + 0.02 * k, 0, 0.5);
+        row.velocity.emplace_back(0, 0, -1);
+        row.volume.push_back(4e-4);
+        row.pressure.push_back(0);
+      }
+      tank.solver->let_in(row);
+      const StepReport report = tank.solver->advance();
+      EXPECT_TRUE(report.valid());
+      came += report.let_in.size();
+      left += report.left.size();
+      for (const LeftParticle& one : report.left) who.push_back(one.id);
+    }
+    EXPECT_EQ(tank.solver->particle_count(), tank.layout.particles.size() + came - left);
+    EXPECT_EQ(came, 180u);
+    EXPECT_GT(left, 10u);
+    return std::make_pair(who, tank.solver->save());
+  };
+  const auto one = run(1, {});
+  for (const int parts : {2, 3}) {
+    const auto several = run(parts, spoiled());
+    EXPECT_TRUE(several.first == one.first) << parts << " parts: others have left";
+    EXPECT_TRUE(several.second == one.second) << parts << " parts";
+  }
+}
+
 /// What the parts find of points, forces and energies is what the solver of all the water finds; and no step depends on it.
 TEST(PartedSolver, PartsReadWhatTheWholeHas) {
   Case scene = running_out(2);

@@ -1,18 +1,7 @@
 // The neighbour grid: a counting sort of the particles by slot, and their reordering. Within a slot they are ordered along x, so that a run
 // repeats bit for bit whatever order the work-items run in.
 #include "cells.cl"
-
-// Whether a place is in a drain: DRAIN_COUNT values each, its centre and three vectors along which its faces are at −1 and 1.
-INLINE bool drained(real x, real y, real z, int drain_count, __global const real* drains) {
-  for (int k = 0; k < drain_count; ++k) {
-    __global const real* drain = drains + k * DRAIN_COUNT;
-    const real dx = x - drain[0], dy = y - drain[1], dz = z - drain[2];
-    bool inside = true;  // of which a place that is not finite never is: the watchdog has to see it
-    for (int side = 3; side < DRAIN_COUNT; side += 3) inside = inside && fabs(dx * drain[side] + dy * drain[side + 1] + dz * drain[side + 2]) <= R(1.0);
-    if (inside) return true;
-  }
-  return false;
-}
+#include "drains.cl"
 
 // counts must be zero; the scatter leaves them so. Particles that leave the water get the slot after all others, where nothing looks for neighbours.
 __kernel void count_slots(__constant const parameters_t* p, int count, __global const real* state, long stride, int slots, int drain_count,
@@ -22,7 +11,7 @@ __kernel void count_slots(__constant const parameters_t* p, int count, __global 
   const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
 #ifdef PARTED
   const int place = place_in_parts(p, x, y, z);
-  const bool stays = (place >= p->halo_begin && place < p->halo_end) || is_astray(p, x, y, z, place);
+  const bool stays = ((place >= p->halo_begin && place < p->halo_end) || is_astray(p, x, y, z, place)) && !drained(x, y, z, drain_count, drains);
   const int slot = state[FIELD_OWN * stride + i] == R(0.0) || !stays ? slots : slot_index(p, x, y, z);
 #else
   const int slot = drained(x, y, z, drain_count, drains) ? slots : slot_index(p, x, y, z);

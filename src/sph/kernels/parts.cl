@@ -1,15 +1,20 @@
 // What a part of the water does beside a step of its own: it chooses what goes to the parts beside it, tells its particles from those of others, lists its
 // tiles, and copies values to and from messages. Built without fast-math.
 #include "cells.cl"
+#include "drains.cl"
 
-// Own particles that the part before and the part after need at their new places: as their own, or in their halos. `sent`: how many, then of those; lists
-// begin `room` apart. Their order does not matter, since it is lost in the sort.
-__kernel void choose_sent(__constant const parameters_t* p, int count, __global const real* state, long stride, int room, __global int* sent,
-                          __global int* chosen) {
+// Own particles that the part before and the part after need at their new places, as their own or in their halos; and those that leave the water. `sent`: how
+// many of each; lists begin `room` apart. Their order does not matter, since it is lost in the sort.
+__kernel void choose_sent(__constant const parameters_t* p, int count, __global const real* state, long stride, int drain_count, __global const real* drains,
+                          int room, __global int* sent, __global int* chosen) {
   const int i = get_global_id(0);
   if (i >= count || state[FIELD_OWN * stride + i] == R(0.0)) return;
   const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
   const int place = place_in_parts(p, x, y, z);
+  if (drained(x, y, z, drain_count, drains)) {
+    chosen[2 * room + atomic_inc(&sent[2])] = i;
+    return;
+  }
   if (is_astray(p, x, y, z, place)) return;
   if (place < p->own_begin + p->halo_width && p->near_begin < p->own_begin) chosen[atomic_inc(&sent[0])] = i;
   if (place >= p->own_end - p->halo_width && p->near_end > p->own_end) chosen[room + atomic_inc(&sent[1])] = i;
