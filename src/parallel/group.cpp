@@ -29,7 +29,12 @@ struct Round {
 }  // namespace
 
 struct ThreadGroup::Shared {
-  Shared(int members, bool in_turns) : size(members), takes_turns(in_turns), boxes(static_cast<std::size_t>(members) * members) {}
+  Shared(int members, bool in_turns)
+      : size(members), takes_turns(in_turns), ends_of_turns(members), boxes(static_cast<std::size_t>(members) * members) {}
+
+  void end_turn(int rank) const {
+    if (takes_turns && ends_of_turns[rank]) ends_of_turns[rank]();
+  }
 
   /// Waits, with the lock held, for something that another part does.
   template <class Condition>
@@ -73,6 +78,7 @@ struct ThreadGroup::Shared {
 
   int size;
   bool takes_turns;
+  std::vector<std::function<void()>> ends_of_turns;
   std::mutex turn;  ///< of the part that runs, if they take turns
   std::mutex mutex;
   std::condition_variable changed;
@@ -94,6 +100,7 @@ class ThreadGroup::Member final : public Group {
     shared_.changed.notify_all();
   }
   Bytes receive(int from) override {
+    shared_.end_turn(rank_);
     std::unique_lock<std::mutex> lock(shared_.mutex);
     std::deque<Bytes>& box = shared_.boxes.at(rank_ * shared_.size + from);
     shared_.wait(lock, [&] { return !box.empty(); });
@@ -102,12 +109,15 @@ class ThreadGroup::Member final : public Group {
     return bytes;
   }
   std::vector<double> greatest(const std::vector<double>& values) override {
+    shared_.end_turn(rank_);
     return shared_.combine(shared_.reals, values, [](double a, double b) { return std::max(a, b); });
   }
   std::vector<std::int64_t> sums(const std::vector<std::int64_t>& values) override {
+    shared_.end_turn(rank_);
     return shared_.combine(shared_.integers, values, [](std::int64_t a, std::int64_t b) { return a + b; });
   }
   std::vector<std::int64_t> least(const std::vector<std::int64_t>& values) override {
+    shared_.end_turn(rank_);
     return shared_.combine(shared_.integers, values, [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
   }
 
@@ -121,6 +131,8 @@ ThreadGroup::ThreadGroup(int size, bool takes_turns) : shared_(std::make_unique<
 }
 
 ThreadGroup::~ThreadGroup() = default;
+
+void ThreadGroup::at_end_of_turn(int rank, std::function<void()> what) { shared_->ends_of_turns.at(rank) = std::move(what); }
 
 int ThreadGroup::size() const { return shared_->size; }
 
@@ -146,6 +158,7 @@ void ThreadGroup::run(const std::function<void(int)>& work) {
     if (shared_->takes_turns) turn.lock();
     try {
       work(rank);
+      shared_->end_turn(rank);
     } catch (...) {
       const std::lock_guard<std::mutex> lock(shared_->mutex);
       if (!shared_->failed) shared_->failed = std::current_exception();

@@ -19,23 +19,22 @@ using parallel::Bytes;
 using parallel::Packed;
 using parallel::Unpacked;
 
-/// What parts cannot do yet, as the key of the case that asks for it; "" if there is nothing.
-std::string refused(const Case& scene) {
-  const auto is_periodic = [&](int axis) { return scene.tank.periodic[axis] || (axis == 1 && scene.dimensions == 2); };
-  if (is_periodic(0) && is_periodic(1) && is_periodic(2)) return "the tank is periodic along all axes";
-  return "";
-}
-
-/// Across the longer level axis of the tank, among those along which it is not periodic: there is no part between its ends.
-int axis_of_parts(const Case& scene, const Discretisation& d) {
+/// Across the longer level axis of the tank.
+int axis_of_parts(const Discretisation& d) {
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
-    if (scene.tank.periodic[k] || (k == 1 && d.dimensions == 2)) continue;
+    if (k == d.top.axis || (k == 1 && d.dimensions == 2)) continue;
     const double length = d.tank.max[k] - d.tank.min[k];
-    const bool longer = axis >= 0 && length > d.tank.max[axis] - d.tank.min[axis];
-    if (axis < 0 || axis == d.top.axis || (k != d.top.axis && longer)) axis = k;
+    if (axis < 0 || length > d.tank.max[axis] - d.tank.min[axis]) axis = k;
   }
   return axis;
+}
+
+/// pocl keeps 128 kernels of a process loaded; two threads that ask at once for one that it has let go load it twice, and it ends the process
+/// when the second is done (an assertion in pocl_release_dlhandle_cache, up to version 5 at least).
+bool need_turns(const std::vector<compute::Device>& devices) {
+  const auto is_pocl = [](const compute::Device& device) { return device.info().platform_name == "Portable Computing Language"; };
+  return std::count_if(devices.begin(), devices.end(), is_pocl) > 1;
 }
 
 /// Which parts have other last bits, and which have fewer cores than their devices have threads.
@@ -89,12 +88,15 @@ class PartedSolver final : public Solver {
   PartedSolver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout, const Discretisation& discretisation,
                const std::vector<Eigen::Vector3d>& centres, const PartedSolverOptions& options)
       : options_(options),
-        threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns)),
+        threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns || need_turns(devices))),
         team_(*threads_),
         whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
         is_open_(!layout.openings.empty()),
         parting_(parting_for(scene, discretisation)) {
-    for (int rank = 0; rank < team_.size(); ++rank) add_part(rank, devices[rank], scene, layout, discretisation, centres);
+    for (int rank = 0; rank < team_.size(); ++rank) {
+      add_part(rank, devices[rank], scene, layout, discretisation, centres);
+      threads_->at_end_of_turn(rank, [device = devices[rank]] { device.finish(); });
+    }
     check_room();
   }
 
@@ -237,6 +239,7 @@ class PartedSolver final : public Solver {
   }
 
   std::vector<Bytes> ask(const Bytes& order) const {
+    if (threads_) whole_.finish();  // whose device a part may have too
     return team_.ask(order, [this](int rank, const Bytes& given) { return parts_.at(rank)->obey(given); });
   }
   std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
@@ -244,13 +247,15 @@ class PartedSolver final : public Solver {
 
   Parting parting_for(const Case& scene, const Discretisation& d) const {
     Parting parting;
-    parting.axis = axis_of_parts(scene, d);
+    parting.axis = axis_of_parts(d);
     const GridShape& grid = whole_.grid();
     const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
     const int places_a_support = static_cast<int>(std::lround(d.support / place));
     // a particle's drift, and that of those it looks for
     const double reach = whole_.greatest_reach() + 2 * whole_.greatest_drift();
-    parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + 1 - options_.halo_less;
+    parting.periodic = scene.tank.periodic[parting.axis];
+    // the last place of a periodic tank may be shorter than others
+    parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + (parting.periodic ? 2 : 1) - options_.halo_less;
     const int supports = supports_of_block(d, parting.axis);
     parting.block = supports * places_a_support;
     parting.segment = slots_of_segment(d, grid);
@@ -347,10 +352,6 @@ class PartedSolver final : public Solver {
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
                                            const PartedSolverOptions& options) {
-  const std::string why = refused(scene);
-  if (!why.empty())
-    throw Error("device names " + std::to_string(devices.size()) + " devices, but " + why +
-                ", which several devices cannot do together yet: choose one device.");
   for (const compute::Device& device : devices) check_precision(scene, device);
   if (scene.numerics.precision == Precision::single)
     return std::make_unique<PartedSolver<float>>(devices, scene, layout, discretisation, centres, options);
@@ -360,10 +361,6 @@ std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& d
 std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
                                            const Case& scene, const Layout& layout, const Discretisation& discretisation,
                                            const std::vector<Eigen::Vector3d>& centres) {
-  const std::string why = refused(scene);
-  if (!why.empty())
-    throw Error("mpirun has started " + std::to_string(team.size()) + (team.size() == 1 ? " rank" : " ranks") + ", but " + why +
-                ", which several devices cannot do together yet: run it without mpirun.");
   check_precision(scene, device);
   if (scene.numerics.precision == Precision::single)
     return std::make_unique<PartedSolver<float>>(team, device, scene_text, scene, layout, discretisation, centres);

@@ -22,9 +22,12 @@ struct Parting {
   int segment = 0;                   ///< slots, of which tiles have particles together
   int places = 0;                    ///< in all
   std::size_t room = 0;              ///< for particles in all parts together, by which the grid is as fine as it is
+  bool periodic = false;             ///< the tank is so along the axis: beyond its last place the first follows
   bool spoils = false;               ///< for tests: what others have not sent yet is not a number
 
   int blocks() const { return (places + block - 1) / block; }
+  /// The first and the last part lie beside each other; of two parts either is on both sides of the other.
+  bool wraps() const { return periodic && group->size() > 1; }
 };
 
 /// Kernel supports of a block: fewer in small tanks, so that they have some of them; more where that costs fewer tiles that are not full.

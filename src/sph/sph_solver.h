@@ -77,6 +77,8 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
   /// Of all the water, wherever it is cut.
   std::size_t particles_of_all() const { return static_cast<std::size_t>(part_ ? part_->all : count_); }
+  /// Waits for all that its device has still to do.
+  void finish() const { device_.finish(); }
   /// Particles that there may be.
   std::size_t room() const { return room_; }
   /// Particles of the part that has the most, over those of the mean; after a step the same on all parts.

@@ -77,8 +77,9 @@ void WaterPart<Real>::carry(const std::string& name, const std::vector<int>& pla
 
 template <class Real>
 int WaterPart<Real>::neighbour(int side) const {
-  const int rank = parting_.group->rank() + (side == 0 ? -1 : 1);
-  return rank < parting_.group->size() ? rank : -1;
+  const int rank = parting_.group->rank() + (side == 0 ? -1 : 1), size = parting_.group->size();
+  if (parting_.wraps()) return (rank + size) % size;
+  return rank < size ? rank : -1;
 }
 
 template <class Real>
@@ -114,7 +115,7 @@ std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particl
     parting_.group->send(neighbour(side), std::move(bytes));
   }
   std::vector<Arrived> arrived;
-  for (const int side : {0, 1}) {
+  for (const int side : {1, 0}) {
     if (neighbour(side) < 0) continue;
     const parallel::Bytes bytes = parting_.group->receive(neighbour(side));
     const std::size_t particles = bytes.size() / (sizeof(std::uint32_t) + components_ * sizeof(Real));
@@ -176,7 +177,7 @@ void WaterPart<Real>::refresh(const std::string& name) {
     append_values(bytes, values.data(), values.size());
     parting_.group->send(neighbour(side), std::move(bytes));
   }
-  for (const int side : {0, 1}) {
+  for (const int side : {1, 0}) {  // of two parts in a ring, the first message is of the one that comes after
     if (neighbour(side) < 0) continue;
     use(edges_[side == 0 ? from_before : from_after]);
     const parallel::Bytes bytes = parting_.group->receive(neighbour(side));

@@ -95,11 +95,10 @@ TEST_F(Parts, HaveTheSameFlows) {
   }
 }
 
-TEST_F(Parts, AreRefusedWhatTheyCannotDo) {
-  Case scene = on("auto,auto");
-  scene.tank.periodic = {true, false, true};
-  EXPECT_EQ(error_of([&] { Simulation simulation(scene); }),
-            "device names 2 devices, but the tank is periodic along all axes, which several devices cannot do together yet: choose one device.");
+TEST_F(Parts, AreRefusedWhereTheWaterIsTooShort) {
+  Case scene = on("auto,auto,auto,auto,auto,auto,auto,auto,auto,auto,auto,auto");
+  const std::string sentence = error_of([&] { Simulation simulation(scene); });
+  EXPECT_EQ(sentence.rfind("the water is to be cut into 12 parts, but it is too short for that: of its ", 0), 0u) << sentence;
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ class ThreadGroup final : public Team {
  public:
   /// `takes_turns`: only one of them runs at a time, until it waits for others, as devices need whose drivers know of one thread alone.
   explicit ThreadGroup(int size, bool takes_turns = false);
+  /// What a part does first when it gives up its turn: of a device, finishing what is queued.
+  void at_end_of_turn(int rank, std::function<void()> what);
   ~ThreadGroup() override;
   ThreadGroup(const ThreadGroup&) = delete;
   ThreadGroup& operator=(const ThreadGroup&) = delete;

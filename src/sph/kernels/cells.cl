@@ -48,9 +48,16 @@ INLINE int place_in_parts(__constant const parameters_t* p, real x, real y, real
   return p->part_axis == 1 ? cell_coordinate(y, p->inverse_row, p->rows_y) : cell_coordinate(z, p->inverse_row, p->rows_z);
 }
 
+// Where the tank is periodic across the parts, the places go on beyond its ends: a place may be one of them by its period.
+INLINE bool is_between(__constant const parameters_t* p, int place, int begin, int end) {
+  const int period = p->part_period;
+  return (place >= begin && place < end) ||
+         (period > 0 && ((place - period >= begin && place - period < end) || (place + period >= begin && place + period < end)));
+}
+
 // A particle that is nowhere, or farther than in the next part, stays with the part that has it: the watchdog has to see it.
 INLINE bool is_astray(__constant const parameters_t* p, real x, real y, real z, int place) {
-  return not_finite(x) || not_finite(y) || not_finite(z) || place < p->near_begin || place >= p->near_end;
+  return not_finite(x) || not_finite(y) || not_finite(z) || !is_between(p, place, p->near_begin, p->near_end);
 }
 
 // The list of tiles lies behind the starts of the slots: how many, then of each its first particle and that after its last.

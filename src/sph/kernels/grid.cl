@@ -11,7 +11,7 @@ __kernel void count_slots(__constant const parameters_t* p, int count, __global 
   const real x = state[FIELD_X * stride + i], y = DIMENSIONS == 3 ? state[FIELD_Y * stride + i] : R(0.0), z = state[FIELD_Z * stride + i];
 #ifdef PARTED
   const int place = place_in_parts(p, x, y, z);
-  const bool stays = ((place >= p->halo_begin && place < p->halo_end) || is_astray(p, x, y, z, place)) && !drained(x, y, z, drain_count, drains);
+  const bool stays = (is_between(p, place, p->halo_begin, p->halo_end) || is_astray(p, x, y, z, place)) && !drained(x, y, z, drain_count, drains);
   const int slot = state[FIELD_OWN * stride + i] == R(0.0) || !stays ? slots : slot_index(p, x, y, z);
 #else
   const int slot = drained(x, y, z, drain_count, drains) ? slots : slot_index(p, x, y, z);

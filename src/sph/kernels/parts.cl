@@ -16,8 +16,10 @@ __kernel void choose_sent(__constant const parameters_t* p, int count, __global 
     return;
   }
   if (is_astray(p, x, y, z, place)) return;
-  if (place < p->own_begin + p->halo_width && p->near_begin < p->own_begin) chosen[atomic_inc(&sent[0])] = i;
-  if (place >= p->own_end - p->halo_width && p->near_end > p->own_end) chosen[room + atomic_inc(&sent[1])] = i;
+  const bool before = p->near_begin < p->own_begin && is_between(p, place, p->near_begin, p->own_begin + p->halo_width);
+  const bool after = p->near_end > p->own_end && is_between(p, place, p->own_end - p->halo_width, p->near_end);
+  if (before || (after && p->part_pair)) chosen[atomic_inc(&sent[0])] = i;
+  if (after && !p->part_pair) chosen[room + atomic_inc(&sent[1])] = i;
 }
 
 // What the report counts of the rates and hits: nothing of particles of others, and of those from `count` on, which have just come or never were.
@@ -89,10 +91,13 @@ __kernel void find_edges(__constant const parameters_t* p, int rows, __global co
                             {p->halo_begin, p->own_begin},
                             {p->own_end, p->halo_end}};
   for (int k = 0; k < 4; ++k) {
-    int first = row * p->slots_x + bounds[k][0], last = row * p->slots_x + bounds[k][1];
+    // beyond an end of a periodic tank, at the other end
+    const int shift = bounds[k][0] < 1 ? p->part_period : (bounds[k][1] > p->part_period + 1 ? -p->part_period : 0);
+    const int begin = bounds[k][0] + shift, end = bounds[k][1] + shift;
+    int first = row * p->slots_x + begin, last = row * p->slots_x + end;
     if (p->part_axis != 0) {
       const int place = place_of_row(p, row);
-      const bool meant = place >= bounds[k][0] && place < bounds[k][1];
+      const bool meant = place >= begin && place < end;
       first = row * p->slots_x;
       last = meant ? first + p->slots_x : first;
     }
