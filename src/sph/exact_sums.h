@@ -12,7 +12,7 @@ namespace wavetank {
 constexpr int exact_places(int values) { return 2 * values + 1; }
 
 /// Quanta of one unit, where values measure about `typical` units: a power of two, so that no bit is lost. A millionth of that is one; of
-/// its rests 2⁻⁶⁰ of that.
+/// its rests 2⁻⁵⁸ of that.
 inline double quanta_per_unit(double typical) { return std::ldexp(1.0, 20 - std::ilogb(std::max(typical, 1e-30))); }
 
 /// Of forces or impulses of a particle, and of their moments over a spacing.
@@ -25,7 +25,9 @@ struct ExactScale {
 /// Of a row of sums, the k-th in units. NaN where a value was lost.
 inline double exact_value(const std::int64_t* row, int k, int values, double quanta) {
   if (row[exact_places(values) - 1] != 0) return std::numeric_limits<double>::quiet_NaN();
-  return (static_cast<double>(row[2 * k]) + std::ldexp(static_cast<double>(row[2 * k + 1]), -40)) / quanta;
+  constexpr int rest_bits = 38;
+  const std::int64_t carried = row[2 * k + 1] >> rest_bits, rest = row[2 * k + 1] - (carried << rest_bits);
+  return (static_cast<double>(row[2 * k] + carried) + std::ldexp(static_cast<double>(rest), -rest_bits)) / quanta;
 }
 
 }  // namespace wavetank

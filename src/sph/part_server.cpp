@@ -181,6 +181,9 @@ class PartServerOf final : public PartServer {
         points.places = vectors_of(from.values<double>());
         return {};
       }
+      case PartOrder::forget:
+        for (const int number : from.values<int>()) points_.erase(number);
+        return {};
       case PartOrder::evaluate:
         return evaluate(points_.at(from.value<int>()));
       case PartOrder::let_in:
@@ -223,8 +226,9 @@ class PartServerOf final : public PartServer {
   void advance(Unpacked& order) {
     const bool moves = order.value<char>() != 0;
     TeamMover mover(group_, leading_, order.values<int>());
+    motions_.reset();
     report_ = solver_.advance(moves ? &mover : nullptr);
-    if (mover.last()) motions_ = mover.last();
+    motions_ = mover.last();
   }
 
   /// A set of points, and those of it that lie in the part.
@@ -391,7 +395,6 @@ std::unique_ptr<PartServer> make_part_server(const compute::Device& device, cons
   Layout dry = layout;
   dry.particles.clear();
   dry.volumes.clear();
-  dry.levels.clear();
   SolverRows rows = rows_for(scene);
   rows.fields.insert(rows.fields.end(), part_fields().begin(), part_fields().end());
   rows.parameters.insert(rows.parameters.end(), part_parameters().begin(), part_parameters().end());

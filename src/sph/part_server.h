@@ -31,6 +31,7 @@ enum class PartOrder : char {
   cut,      ///< cuts, and a state of all the water, of which the part takes what is its
   memory,   ///< replies with the bytes on its device
   points,   ///< a set of points by its number: what is wanted, and where they are
+  forget,   ///< sets of points
   evaluate,  ///< replies with which of a set lie in the part, and the water there
   wrenches,  ///< those on all owners by all the water
   energies,  ///< of all the water

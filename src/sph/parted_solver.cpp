@@ -55,8 +55,12 @@ void tell_of_parts(const parallel::Team& team, const std::vector<PartFacts>& par
 /// Points that the parts know by a number, each those that lie in it; and the solver of all the water, once it is asked.
 class PointsOfAll final : public PointSet {
  public:
-  PointsOfAll(int number_of_set, std::vector<Eigen::Vector3d> points, PointValues values)
-      : number(number_of_set), wanted(values), places(std::move(points)) {}
+  /// `dropped`: to which its number is added when it is gone.
+  PointsOfAll(int number_of_set, std::vector<Eigen::Vector3d> points, PointValues values, std::shared_ptr<std::vector<int>> dropped)
+      : number(number_of_set), wanted(values), places(std::move(points)), dropped_(std::move(dropped)) {}
+  ~PointsOfAll() override { dropped_->push_back(number); }
+  PointsOfAll(const PointsOfAll&) = delete;
+  PointsOfAll& operator=(const PointsOfAll&) = delete;
 
   void set(const std::vector<Eigen::Vector3d>& points) override {
     places = points;
@@ -79,6 +83,7 @@ class PointsOfAll final : public PointSet {
  private:
   mutable std::unique_ptr<PointSet> of_whole_;
   mutable bool of_whole_is_new_ = false;
+  std::shared_ptr<std::vector<int>> dropped_;
 };
 
 template <class Real>
@@ -129,7 +134,11 @@ class PartedSolver final : public Solver {
     has_started_ = true;
     return report;
   }
-  StepReport settle(double periods, const std::function<void(double)>& progress) override { return changed().settle(periods, progress); }
+  StepReport settle(double periods, const std::function<void(double)>& progress) override {
+    const StepReport report = changed().settle(periods, progress);
+    has_started_ = true;
+    return report;
+  }
 
   StepReport advance(WallMover* mover) override {
     if (stale_parts_ || is_time_to_cut()) cut();
@@ -163,13 +172,15 @@ class PartedSolver final : public Solver {
     ask(Packed().value(PartOrder::limit).value(limit));
   }
   double shorten_step(double longest) override {
-    if (stale_parts_) return whole_.shorten_step(longest);
+    if (!stale_whole_) whole_.shorten_step(longest);  // of which the water may be cut anew before that step
+    if (stale_parts_) return whole_.time_step();
     ask(Packed().value(PartOrder::shorten).value(longest));
     return parts_[0]->time_step();
   }
   std::size_t particle_count() const override { return stale_whole_ ? parts_[0]->particles() : whole_.particle_count(); }
   void let_in(const NewParticles& particles) override {
     check(particles);
+    whole_.open();
     coming_.push_back(let_in_order(particles));
   }
   void set_drains(const std::vector<Drain>& drains) override {
@@ -182,11 +193,12 @@ class PartedSolver final : public Solver {
   }
   std::optional<ThinWall> thinnest_wall() const override { return whole_.thinnest_wall(); }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override {
-    return std::make_unique<PointsOfAll>(next_points_++, points, wanted);
+    return std::make_unique<PointsOfAll>(next_points_++, points, wanted, dropped_points_);
   }
   std::vector<PointValue> evaluate(const PointSet& set) override {
     const auto& points = dynamic_cast<const PointsOfAll&>(set);
     if (!parts_have_it()) return whole_.evaluate(points.of(whole_));
+    if (!dropped_points_->empty()) ask(Packed().value(PartOrder::forget).values(std::exchange(*dropped_points_, {})));
     if (!std::exchange(points.told, true))
       ask(Packed().value(PartOrder::points).value(points.number).value(points.wanted).values(numbers_of(points.places)));
     std::vector<PointValue> values(points.places.size());
@@ -251,15 +263,15 @@ class PartedSolver final : public Solver {
     const GridShape& grid = whole_.grid();
     const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
     const int places_a_support = static_cast<int>(std::lround(d.support / place));
-    // a particle's drift, and that of those it looks for
-    const double reach = whole_.greatest_reach() + 2 * whole_.greatest_drift();
-    parting.periodic = scene.tank.periodic[parting.axis];
-    // the last place of a periodic tank may be shorter than others
-    parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + (parting.periodic ? 2 : 1) - options_.halo_less;
     const int supports = supports_of_block(d, parting.axis);
     parting.block = supports * places_a_support;
     parting.segment = slots_of_segment(d, grid);
     parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
+    parting.periodic = scene.tank.periodic[parting.axis];
+    // a particle's drift, and that of those it looks for; and places beyond the end of a periodic tank, where nobody is
+    const double empty = parting.periodic ? parting.places * place - (d.tank.max[parting.axis] - d.tank.min[parting.axis]) : 0;
+    const double reach = whole_.greatest_reach() + 2 * whole_.greatest_drift() + std::max(empty, 0.0);
+    parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + 1 - options_.halo_less;
     parting.room = whole_.room();
     parting.spoils = options_.spoils;
     return parting;
@@ -297,6 +309,7 @@ class PartedSolver final : public Solver {
   }
   /// It is about to change.
   SphSolver<Real>& changed() {
+    if (!coming_.empty()) throw Error("a case was to be started, settled or packed when particles had come in already");
     SphSolver<Real>& all = whole();
     stale_parts_ = true;
     return all;
@@ -339,6 +352,7 @@ class PartedSolver final : public Solver {
   std::vector<Bytes> coming_;                       ///< orders to let particles in
   std::vector<double> film_;                        ///< that the parts know of
   mutable int next_points_ = 0;
+  std::shared_ptr<std::vector<int>> dropped_points_ = std::make_shared<std::vector<int>>();  ///< that parts may still have
   std::optional<WallMotions> motions_;              ///< of walls that have moved, now
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;

@@ -21,7 +21,11 @@ ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particl
       order_(device, particles) {}
 
 void ParticleGrid::reserve(const compute::Device& device, int particles, int listed) {
-  if (listed > 0) starts_ = compute::Buffer<int>(device, static_cast<std::size_t>(all_slots_) + 1 + listed);
+  if (listed > 0) {  // the step in progress still goes by them
+    std::vector<int> had = starts_.download();
+    had.resize(static_cast<std::size_t>(all_slots_) + 1 + listed, 0);
+    starts_ = compute::Buffer<int>(device, had);
+  }
   slot_of_ = compute::Buffer<int>(device, particles);
   order_ = compute::Buffer<int>(device, particles);
 }

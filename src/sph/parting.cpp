@@ -29,7 +29,7 @@ const std::vector<ParameterRow>& part_parameters() {
 void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts) {
   const int rank = parting.group->rank(), last = parting.group->size() - 1;
   const bool wraps = parting.wraps();
-  const auto place = [&](int cut) { return 1 + std::min(cuts[cut] * parting.block, parting.places); };
+  const auto place = [&](int cut) { return 1 + (cuts[cut] == parting.blocks() ? parting.places : cuts[cut] * parting.block); };
   const int begin = place(rank), end = place(rank + 1);
   const bool has_before = rank > 0 || wraps, has_after = rank < last || wraps;
   const int before = rank > 0 ? place(rank - 1) : wraps ? place(last) - parting.places : begin;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -18,14 +19,14 @@ struct Parting {
   parallel::Group* group = nullptr;  ///< the part and those beside it; the rest is the same for all
   int axis = 0;                      ///< across which the water is cut
   int halo = 0;                      ///< places beside its own of which a part has the particles of others
-  int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks
+  int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks, of which the last may be longer
   int segment = 0;                   ///< slots, of which tiles have particles together
   int places = 0;                    ///< in all
   std::size_t room = 0;              ///< for particles in all parts together, by which the grid is as fine as it is
   bool periodic = false;             ///< the tank is so along the axis: beyond its last place the first follows
   bool spoils = false;               ///< for tests: what others have not sent yet is not a number
 
-  int blocks() const { return (places + block - 1) / block; }
+  int blocks() const { return std::max(places / block, 1); }
   /// The first and the last part lie beside each other; of two parts either is on both sides of the other.
   bool wraps() const { return periodic && group->size() > 1; }
 };

@@ -77,6 +77,9 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
   /// Of all the water, wherever it is cut.
   std::size_t particles_of_all() const { return static_cast<std::size_t>(part_ ? part_->all : count_); }
+  double time_step() const { return step_; }
+  /// Particles may come and go: snapshots of any number of them are taken.
+  void open() { open_ = true; }
   /// Waits for all that its device has still to do.
   void finish() const { device_.finish(); }
   /// Particles that there may be.

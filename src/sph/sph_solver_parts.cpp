@@ -208,6 +208,8 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   StepReport report;
   report.let_in = std::exchange(masses_let_in_, {});
   part_->all += static_cast<std::int64_t>(report.let_in.size()) - counts.back();
+  const bool only_infected = found["not_finite"] == 0 && found["infected"] > 0;  // without another to blame
+  if (only_infected) found["not_finite"] = found["infected"];
   if (found["particles"] != static_cast<double>(part_->all))
     throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
                 " particles together, not " + std::to_string(part_->all) + ": some were lost between them");
@@ -232,9 +234,10 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   }
   if (report.not_finite + report.outside + report.too_fast == 0) return report;
   // the one of the least id is told of, by the part that has it
-  const bool offends =
-      counted[reports_.integer("not_finite")] + counted[reports_.integer("outside")] + counted[reports_.integer("fast")] > 0;
-  if (offends) describe_offender(report, counted[reports_.integer("offender")]);
+  int first = counted[reports_.integer("offender")];
+  if (only_infected) first = std::min(first, counted[reports_.integer("first_infected")]);
+  const bool offends = first != ReportTable::nobody;
+  if (offends) describe_offender(report, first);
   const std::int64_t least = group.least({offends ? static_cast<std::int64_t>(report.offender_id) : nobody_offends})[0];
   tell_of_offender(group, report, offends && report.offender_id == least);
   return report;
@@ -272,7 +275,7 @@ std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting& pa
   std::vector<std::int64_t> counts(parting.blocks(), 0);
   const std::vector<Real> state = state_.download();
   const Real* const coordinates = component(state, parting.axis == 0 ? "x" : parting.axis == 1 ? "y" : "z");
-  for (int i = 0; i < count_; ++i) ++counts[(place_in_parts(parting, coordinates[i]) - 1) / parting.block];
+  for (int i = 0; i < count_; ++i) ++counts[std::min((place_in_parts(parting, coordinates[i]) - 1) / parting.block, parting.blocks() - 1)];
   return counts;
 }
 

@@ -94,7 +94,7 @@ FluidEnergies SphSolver<Real>::energies() {
   energies.zone_force = vector(field::energy_zone_force);
   energies.zone_moment = vector(field::energy_zone_moment) + discretisation_.origin.cross(energies.zone_force);
   energies.mass_centre = discretisation_.origin;
-  if (energies.mass > 0) energies.mass_centre += vector(field::energy_moment) / energies.mass;
+  if (energies.mass != 0) energies.mass_centre += vector(field::energy_moment) / energies.mass;
   // from the grid's origin to the tank's floor
   const Eigen::Vector3d up = upward(case_);
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();

@@ -103,10 +103,12 @@ __kernel void watch_total(__constant const parameters_t* p, int chunks, __global
       counted[k] = is_first(k) ? min(counted[k], more) : counted[k] + more;
     }
   }
+#ifndef PARTED  // the host knows of the other parts
   if (counted[COUNTED_NOT_FINITE] == 0 && counted[COUNTED_INFECTED] > 0) {  // without another to blame
     counted[COUNTED_NOT_FINITE] = counted[COUNTED_INFECTED];
     counted[COUNTED_OFFENDER] = min(counted[COUNTED_OFFENDER], counted[COUNTED_FIRST_INFECTED]);
   }
+#endif
   __global int* integers = (__global int*)(report + REPORT_COUNTED);
   for (int k = 0; k < COUNTED_COUNT; ++k) integers[k] = counted[k];
   const real h = p->smoothing_length;
@@ -195,6 +197,7 @@ __kernel void energy_chunks(__constant const parameters_t* p, int count, __globa
     }
     for (int k = 0; k < ENERGY_COUNT; ++k) add_exact(sums, k, places, quanta[k] * values[k]);
   }
+  carry_rests(sums, places);
   for (int k = 0; k < places; ++k) energies[(long)chunk * places + k] = sums[k];
 }
 
@@ -260,6 +263,7 @@ __kernel void wrench_chunks(int count, int chunks, int regions, int items, __glo
   for (int item = first; item < end; ++item)
     for (int part = 0; part < WRENCH_COUNT; ++part)
       add_exact(sum, part, places, (part < WRENCH_COUNT / 2 ? per_force : per_moment) * wrenches[item * WRENCH_COUNT + part]);
+  carry_rests(sum, places);
   for (int part = 0; part < places; ++part) sums[k * places + part] = sum[part];
 }
 
@@ -299,6 +303,7 @@ __kernel void facing_chunks(int items, int chunks, int count, __global const int
                                         per_moment * (rx * fy - ry * fx)};
       for (int k = 0; k < FACING_COUNT; ++k) add_exact(sum, k, EXACT(FACING_COUNT), parts[k]);
     }
+  carry_rests(sum, EXACT(FACING_COUNT));
   for (int k = 0; k < EXACT(FACING_COUNT); ++k) sums[EXACT(FACING_COUNT) * item + k] = sum[k];
 }
 
