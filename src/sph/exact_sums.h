@@ -26,8 +26,8 @@ struct ExactScale {
 inline double exact_value(const std::int64_t* row, int k, int values, double quanta) {
   if (row[exact_places(values) - 1] != 0) return std::numeric_limits<double>::quiet_NaN();
   constexpr int rest_bits = 38;
-  const std::int64_t carried = row[2 * k + 1] >> rest_bits, rest = row[2 * k + 1] - (carried << rest_bits);
-  return (static_cast<double>(row[2 * k] + carried) + std::ldexp(static_cast<double>(rest), -rest_bits)) / quanta;
+  const std::int64_t carried = row[values + k] >> rest_bits, rest = row[values + k] - carried * (std::int64_t{1} << rest_bits);
+  return (static_cast<double>(row[k] + carried) + std::ldexp(static_cast<double>(rest), -rest_bits)) / quanta;
 }
 
 }  // namespace wavetank

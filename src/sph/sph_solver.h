@@ -229,7 +229,7 @@ class SphSolver final : public Solver, private StepEngine {
     BoundSweep packing, surroundings, normals, cone, shifts, crowding, pairs, guard;
     compute::BoundKernel derive, predict, correct, compress, move_packed, go_on_trial, take_sum, predict_end, correct_end, impose,
         hold_shifts, damp, mark_surface;
-    compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_chunks, packing_chunks;
+    compute::BoundKernel watch_chunks, watch_groups, watch_total, energy_pieces, packing_chunks;
   };
   /// Of the state's vectors, where their first components are.
   struct FirstFields {
@@ -316,6 +316,7 @@ class SphSolver final : public Solver, private StepEngine {
   Buffer packing_parts_;  ///< likewise
   Buffer group_watches_;
   compute::Buffer<int> alarms_, group_alarms_, pair_counts_;
+  int energy_rows_, energy_pieces_, energy_segment_;  ///< of the grid; as which a row is summed; slots of a segment of one
   compute::Buffer<std::int64_t> energy_parts_;
   RowSums<std::int64_t> energy_sums_;
   std::vector<double> energy_quanta_;  ///< of each of these sums, a unit

@@ -121,7 +121,8 @@ void SphSolver<Real>::bind_reductions() {
   kernels_.watch_total = kernel("watch_total", watching.value("longest", longest_step_).memory("report", report_));
   compute::Arguments energies = arguments();
   damping_.add_to(energies);
-  kernels_.energy_chunks = kernel("energy_chunks", energies.memory("quanta", std::as_const(energy_quanta_on_device_)).memory("energies", energy_parts_));
+  energies.value("rows", energy_rows_).value("pieces", energy_pieces_).value("segment", energy_segment_);
+  kernels_.energy_pieces = kernel("energy_pieces", energies.memory("quanta", std::as_const(energy_quanta_on_device_)).memory("energies", energy_parts_));
   energy_sums_.bind(device_, *make_, arguments(), energy_parts_, exact_places(field::energy_count));
   kernels_.packing_chunks = kernel("packing_chunks", arguments().memory("sums", packing_parts_));
   packing_sums_.bind(device_, *make_, arguments(), packing_parts_, 1);

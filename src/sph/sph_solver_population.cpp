@@ -109,7 +109,6 @@ void SphSolver<Real>::reserve(int count) {
   compute::Buffer<std::uint32_t> ids = respaced(device_, id_, static_cast<Stride>(id_.size()), stride), spare_ids(device_, stride);
   Buffer fillings(device_, stride), watches(device_, chunks * reports_.greatest_count()),
       group_watches(device_, groups * reports_.greatest_count());
-  compute::Buffer<std::int64_t> energy_parts(device_, chunks * exact_places(field::energy_count));
   compute::Buffer<int> alarms(device_, chunks * reports_.integer_count()), group_alarms(device_, groups * reports_.integer_count());
   guarded_.reserve(stride);
   surroundings_.grid.reserve(device_, static_cast<int>(stride), part_ ? 1 + 2 * static_cast<int>(stride) : 0);
@@ -122,7 +121,6 @@ void SphSolver<Real>::reserve(int count) {
   group_watches_ = std::move(group_watches);
   alarms_ = std::move(alarms);
   group_alarms_ = std::move(group_alarms);
-  energy_parts_ = std::move(energy_parts);
   stride_ = surroundings_.stride = stride;
   if (part_) part_->reserve(stride);
 }

@@ -78,8 +78,9 @@ std::vector<WallWrench> SphSolver<Real>::wrenches() {
 
 template <class Real>
 FluidEnergies SphSolver<Real>::energies() {
-  kernels_.energy_chunks.launch(chunks_);
-  energy_sums_.sum(chunks_);
+  const int pieces = energy_rows_ * energy_pieces_;
+  kernels_.energy_pieces.launch(pieces);
+  energy_sums_.sum(pieces);
   std::vector<std::int64_t> sums = energy_sums_.download();
   if (part_) sums = part_->parting().group->sums(sums);
   std::vector<double> total;

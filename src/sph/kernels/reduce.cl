@@ -158,47 +158,65 @@ __kernel void sum_exact_rows(int rows, int columns, __global const long* from, _
   to[item] = sum;
 }
 
-// Of particles' energies and moments; `quanta`: of each of these sums, a unit.
-__kernel void energy_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const real* rates,
-                            int damping_count, __global const real* dampings, __global const real* quanta, __global long* energies) {
-  const int chunk = get_global_id(0);
-  if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
-  const int places = EXACT(ENERGY_COUNT);
-  long sums[EXACT(ENERGY_COUNT)] = {0};
-  for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
-#ifdef PARTED
-    if (state[FIELD_OWN * stride + i] == R(0.0)) continue;
-#endif
-    real values[ENERGY_COUNT] = {R(0.0)};
-    const real mass = state[FIELD_MASS * stride + i];
-    const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
-    const real s = state[FIELD_COMPRESSION * stride + i];
-    const real fall = p->gravity_x * state[FIELD_X * stride + i] + p->gravity_y * state[FIELD_Y * stride + i] + p->gravity_z * state[FIELD_Z * stride + i];
-    values[ENERGY_KINETIC] = R(0.5) * mass * (u * u + v * v + w * w);
-    values[ENERGY_POTENTIAL] = -mass * fall;
-    values[ENERGY_COMPRESSION] = p->sound_speed * p->sound_speed * mass * stored_energy(s);
-    values[ENERGY_MASS] = mass;
-    for (int axis = 0; axis < 3; ++axis) values[ENERGY_MOMENT + axis] = mass * state[(FIELD_X + axis) * stride + i];
+// Energies and moments of a particle.
+INLINE void find_energies(real* values, __constant const parameters_t* p, int i, __global const real* state, long stride, __global const real* rates,
+                          int damping_count, __global const real* dampings) {
+  for (int k = 0; k < ENERGY_COUNT; ++k) values[k] = R(0.0);
+  const real mass = state[FIELD_MASS * stride + i];
+  const real u = state[FIELD_U * stride + i], v = state[FIELD_V * stride + i], w = state[FIELD_W * stride + i];
+  const real s = state[FIELD_COMPRESSION * stride + i];
+  const real fall = p->gravity_x * state[FIELD_X * stride + i] + p->gravity_y * state[FIELD_Y * stride + i] + p->gravity_z * state[FIELD_Z * stride + i];
+  values[ENERGY_KINETIC] = R(0.5) * mass * (u * u + v * v + w * w);
+  values[ENERGY_POTENTIAL] = -mass * fall;
+  values[ENERGY_COMPRESSION] = p->sound_speed * p->sound_speed * mass * stored_energy(s);
+  values[ENERGY_MASS] = mass;
+  for (int axis = 0; axis < 3; ++axis) values[ENERGY_MOMENT + axis] = mass * state[(FIELD_X + axis) * stride + i];
 #if ACOUSTIC_DAMPER
-    const real compressing = rates[RATE_COMPRESSION * stride + i];
-    values[ENERGY_DAMPER] = state[FIELD_VOLUME * stride + i] * compressing * damper_pressure(p, s, compressing);
+  const real compressing = rates[RATE_COMPRESSION * stride + i];
+  values[ENERGY_DAMPER] = state[FIELD_VOLUME * stride + i] * compressing * damper_pressure(p, s, compressing);
 #endif
-    for (int k = 0; k < damping_count; ++k) {
-      __global const real* zone = dampings + k * DAMPING_COUNT;
-      const real rate = mass * damping_rate(zone, state, stride, i);
-      if (rate == R(0.0)) continue;
-      real force[3];
-      for (int axis = 0; axis < 3; ++axis) force[axis] = rate * (state[(FIELD_U + axis) * stride + i] - zone[DAMPING_VELOCITY + axis]);
-      for (int axis = 0; axis < 3; ++axis) {
-        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-        values[ENERGY_ZONE_FORCE + axis] += force[axis];
-        values[ENERGY_ZONE_MOMENT + axis] += state[(FIELD_X + next) * stride + i] * force[last] - state[(FIELD_X + last) * stride + i] * force[next];
-      }
+  for (int k = 0; k < damping_count; ++k) {
+    __global const real* zone = dampings + k * DAMPING_COUNT;
+    const real rate = mass * damping_rate(zone, state, stride, i);
+    if (rate == R(0.0)) continue;
+    real force[3];
+    for (int axis = 0; axis < 3; ++axis) force[axis] = rate * (state[(FIELD_U + axis) * stride + i] - zone[DAMPING_VELOCITY + axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      values[ENERGY_ZONE_FORCE + axis] += force[axis];
+      values[ENERGY_ZONE_MOMENT + axis] += state[(FIELD_X + next) * stride + i] * force[last] - state[(FIELD_X + last) * stride + i] * force[next];
     }
-    for (int k = 0; k < ENERGY_COUNT; ++k) add_exact(sums, k, places, quanta[k] * values[k]);
   }
-  carry_rests(sums, places);
-  for (int k = 0; k < places; ++k) energies[(long)chunk * places + k] = sums[k];
+}
+
+// Of a piece of a row, of which each has as many: of each of its segments, which parts do not divide, in the particles' order, and of segments in whole
+// numbers. `quanta`: of each of these sums, a unit.
+__kernel void energy_pieces(__constant const parameters_t* p, int rows, int pieces, int segment, __global const int* slot_start, __global const real* state,
+                            long stride, __global const real* rates, int damping_count, __global const real* dampings, __global const real* quanta,
+                            __global long* energies) {
+  const int item = get_global_id(0);
+  if (item >= rows * pieces) return;
+  const int places = EXACT(ENERGY_COUNT);
+  const int summed = damping_count > 0 ? ENERGY_COUNT : (ACOUSTIC_DAMPER ? ENERGY_DAMPER + 1 : ENERGY_DAMPER);
+  long totals[EXACT(ENERGY_COUNT)] = {0};
+  __global const int* starts = slot_start + (long)(item / pieces) * p->slots_x;
+  for (int slot = 1 + item % pieces * segment; slot < p->slots_x - 1; slot += pieces * segment) {
+    const int begin = starts[slot], end = starts[min(slot + segment, p->slots_x - 1)];
+#ifdef PARTED
+    if (begin == end || state[FIELD_OWN * stride + begin] == R(0.0)) continue;
+#else
+    if (begin == end) continue;
+#endif
+    real sums[ENERGY_COUNT], rests[ENERGY_COUNT], values[ENERGY_COUNT];
+    for (int k = 0; k < ENERGY_COUNT; ++k) sums[k] = rests[k] = R(0.0);
+    for (int i = begin; i < end; ++i) {
+      find_energies(values, p, i, state, stride, rates, damping_count, dampings);
+      for (int k = 0; k < summed; ++k) add_compensated(values[k], &sums[k], &rests[k]);
+    }
+    for (int k = 0; k < summed; ++k) add_exact(totals, k, ENERGY_COUNT, quanta[k] * sums[k]);
+  }
+  carry_rests(totals, ENERGY_COUNT);
+  for (int k = 0; k < places; ++k) energies[(long)item * places + k] = totals[k];
 }
 
 // Packing's report: Σ (h |E|)².
@@ -243,7 +261,7 @@ __kernel void guard_chunks(__constant const parameters_t* p, int count, __global
                                          per_moment * (rz * px - rx * pz),
                                          per_moment * (rx * py - ry * px)};
       long sums[EXACT(IMPULSE_COUNT)] = {0};
-      for (int k = 0; k < IMPULSE_COUNT; ++k) add_exact(sums, k, places, taken[k]);
+      for (int k = 0; k < IMPULSE_COUNT; ++k) add_exact(sums, k, IMPULSE_COUNT, taken[k]);
       for (int k = 0; k < places; ++k) row[owner * places + k] += sums[k];
     }
   }
@@ -261,9 +279,12 @@ __kernel void wrench_chunks(int count, int chunks, int regions, int items, __glo
   const int places = EXACT(WRENCH_COUNT);
   long sum[EXACT(WRENCH_COUNT)] = {0};
   for (int item = first; item < end; ++item)
-    for (int part = 0; part < WRENCH_COUNT; ++part)
-      add_exact(sum, part, places, (part < WRENCH_COUNT / 2 ? per_force : per_moment) * wrenches[item * WRENCH_COUNT + part]);
-  carry_rests(sum, places);
+    for (int part = 0; part < WRENCH_COUNT; ++part) {
+      const real value = wrenches[item * WRENCH_COUNT + part];
+      if (value == R(0.0)) continue;  // of most runs: far from the owner
+      add_exact(sum, part, WRENCH_COUNT, (part < WRENCH_COUNT / 2 ? per_force : per_moment) * value);
+    }
+  carry_rests(sum, WRENCH_COUNT);
   for (int part = 0; part < places; ++part) sums[k * places + part] = sum[part];
 }
 
@@ -301,9 +322,9 @@ __kernel void facing_chunks(int items, int chunks, int count, __global const int
                                         per_moment * (ry * fz - rz * fy),
                                         per_moment * (rz * fx - rx * fz),
                                         per_moment * (rx * fy - ry * fx)};
-      for (int k = 0; k < FACING_COUNT; ++k) add_exact(sum, k, EXACT(FACING_COUNT), parts[k]);
+      for (int k = 0; k < FACING_COUNT; ++k) add_exact(sum, k, FACING_COUNT, parts[k]);
     }
-  carry_rests(sum, EXACT(FACING_COUNT));
+  carry_rests(sum, FACING_COUNT);
   for (int k = 0; k < EXACT(FACING_COUNT); ++k) sums[EXACT(FACING_COUNT) * item + k] = sum[k];
 }
 
@@ -314,9 +335,9 @@ __kernel void facing_totals(int regions, int chunks, __global const long* sums, 
   for (int chunk = 0; chunk < chunks; ++chunk) {
     __global const long* added = sums + EXACT(FACING_COUNT) * (k * chunks + chunk);
     for (int part = 0; part < FACING_COUNT; ++part) {
-      const int to = 2 * (part < 3 ? part : part + 3);
-      row[to] += added[2 * part];
-      row[to + 1] += added[2 * part + 1];
+      const int to = part < 3 ? part : part + 3;
+      row[to] += added[part];
+      row[WRENCH_COUNT + to] += added[FACING_COUNT + part];
     }
     row[EXACT(WRENCH_COUNT) - 1] += added[EXACT(FACING_COUNT) - 1];
   }
