@@ -25,8 +25,8 @@ class FacingWalls {
 
   /// Where the owners are.
   void set_poses(const std::vector<WallPose>& poses);
-  /// `arguments`: of the surroundings, the state of each slot, the owners' regions, their totals, and the quanta of those. This must stay where it is from then
-  /// on.
+  /// `arguments`: of the surroundings, the state of each slot, the owners' regions, their totals, and the quanta of those. This must stay
+  /// where it is from then on.
   void bind(const KernelMaker& make, const std::map<Slot, compute::Arguments>& arguments);
   /// Adds to the pressure forces and torques of the owners whose regions are given, as wrench_totals leaves them.
   void add(Slot state, int regions);

@@ -11,8 +11,8 @@ constexpr int places = exact_places(field::impulse_count);
 }  // namespace
 
 template <class Real>
-GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners,
-                                   const ExactScale& scale, parallel::Group* group)
+GuardImpulses<Real>::GuardImpulses(const compute::Device& device, bool gives, Stride stride, std::size_t owners, const ExactScale& scale,
+                                   parallel::Group* group)
     : device_(device),
       gives_(gives),
       owners_(static_cast<int>(owners)),

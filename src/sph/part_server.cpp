@@ -86,7 +86,8 @@ std::vector<Drain> drains_from(Unpacked& from) {
 std::vector<ImposedZone> zones_from(Unpacked& from) {
   std::vector<ImposedZone> zones(from.value<std::size_t>());
   for (ImposedZone& zone : zones) {
-    for (Eigen::Vector3d* vector : {&zone.centre, &zone.normal, &zone.across, &zone.up, &zone.drift, &zone.heading}) *vector = vector_from(from);
+    for (Eigen::Vector3d* vector : {&zone.centre, &zone.normal, &zone.across, &zone.up, &zone.drift, &zone.heading})
+      *vector = vector_from(from);
     for (int k = 0; k < 3; ++k) zone.turning.col(k) = vector_from(from);
     zone.depth = from.value<double>();
     zone.cells = from.value<std::array<int, 2>>();

@@ -18,20 +18,20 @@ namespace wavetank {
 
 /// What the parts are asked to do, as the first byte of an order, and what comes after it.
 enum class PartOrder : char {
-  begin,    ///< a part in another process: FirstOrder; replies with PartFacts
-  advance,  ///< a step: whether walls move in it, and the owners whose wrenches move them
-  walls,    ///< WallMotions, as they are now
-  shorten,  ///< s, of the next step
-  limit,    ///< s, of every step
-  film,     ///< lumps
-  let_in,   ///< NewParticles at the end of the next step, of which each part takes its own
-  drains,   ///< Drains
-  zones,    ///< ImposedZones
-  save,     ///< replies with the state of the part's own particles
-  cut,      ///< cuts, and a state of all the water, of which the part takes what is its
-  memory,   ///< replies with the bytes on its device
-  points,   ///< a set of points by its number: what is wanted, and where they are
-  forget,   ///< sets of points
+  begin,     ///< a part in another process: FirstOrder; replies with PartFacts
+  advance,   ///< a step: whether walls move in it, and the owners whose wrenches move them
+  walls,     ///< WallMotions, as they are now
+  shorten,   ///< s, of the next step
+  limit,     ///< s, of every step
+  film,      ///< lumps
+  let_in,    ///< NewParticles at the end of the next step, of which each part takes its own
+  drains,    ///< Drains
+  zones,     ///< ImposedZones
+  save,      ///< replies with the state of the part's own particles
+  cut,       ///< cuts, and a state of all the water, of which the part takes what is its
+  memory,    ///< replies with the bytes on its device
+  points,    ///< a set of points by its number: what is wanted, and where they are
+  forget,    ///< sets of points
   evaluate,  ///< replies with which of a set lie in the part, and the water there
   wrenches,  ///< those on all owners by all the water
   energies,  ///< of all the water

@@ -30,8 +30,8 @@ int axis_of_parts(const Discretisation& d) {
   return axis;
 }
 
-/// pocl keeps 128 kernels of a process loaded; two threads that ask at once for one that it has let go load it twice, and it ends the process
-/// when the second is done (an assertion in pocl_release_dlhandle_cache, up to version 5 at least).
+/// pocl keeps 128 kernels of a process loaded; two threads that ask at once for one that it has let go load it twice, and it ends the
+/// process when the second is done (an assertion in pocl_release_dlhandle_cache, up to version 5 at least).
 bool need_turns(const std::vector<compute::Device>& devices) {
   const auto is_pocl = [](const compute::Device& device) { return device.info().platform_name == "Portable Computing Language"; };
   return std::count_if(devices.begin(), devices.end(), is_pocl) > 1;
@@ -353,7 +353,7 @@ class PartedSolver final : public Solver {
   std::vector<double> film_;                        ///< that the parts know of
   mutable int next_points_ = 0;
   std::shared_ptr<std::vector<int>> dropped_points_ = std::make_shared<std::vector<int>>();  ///< that parts may still have
-  std::optional<WallMotions> motions_;              ///< of walls that have moved, now
+  std::optional<WallMotions> motions_;                                                       ///< of walls that have moved, now
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;
   bool has_started_ = false;

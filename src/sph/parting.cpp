@@ -19,7 +19,8 @@ const std::vector<FieldRow>& part_fields() {
 const std::vector<ParameterRow>& part_parameters() {
   static const std::vector<ParameterRow> rows = [] {
     std::vector<ParameterRow> made;
-    for (const char* name : {"part_axis", "own_begin", "own_end", "halo_begin", "halo_end", "near_begin", "near_end", "halo_width", "part_period", "part_pair"})
+    for (const char* name : {"part_axis", "own_begin", "own_end", "halo_begin", "halo_end", "near_begin", "near_end", "halo_width",
+                             "part_period", "part_pair"})
       made.push_back({name, "", "of a part of the water", [](const ParameterSource&) { return 0.0; }, ParameterRow::Kind::integer});
     return made;
   }();

@@ -8,7 +8,7 @@ namespace wavetank {
 
 template <class Value>
 void RowSums<Value>::bind(const compute::Device& device, const KernelMaker& make, const compute::Arguments& given,
-                         const compute::Buffer<Value>& array, int columns) {
+                          const compute::Buffer<Value>& array, int columns) {
   device_ = device;
   columns_ = columns;
   compute::Arguments arguments = given;

@@ -8,14 +8,14 @@
 
 namespace wavetank {
 
-/// Sums of an array's rows on the device by a tree of a fixed shape, so that they repeat to the bit; of Real, or of whole numbers of 64 bits.
-/// Must stay where it is once it is bound.
+/// Sums of an array's rows on the device by a tree of a fixed shape, so that they repeat to the bit; of Real, or of whole numbers of 64
+/// bits. Must stay where it is once it is bound.
 template <class Value>
 class RowSums {
  public:
   /// `array` has `columns` values a row.
-  void bind(const compute::Device& device, const KernelMaker& make, const compute::Arguments& arguments, const compute::Buffer<Value>& array,
-            int columns);
+  void bind(const compute::Device& device, const KernelMaker& make, const compute::Arguments& arguments,
+            const compute::Buffer<Value>& array, int columns);
   /// Of its first `rows` > 0 rows, column by column: the first values of the result, which holds until the next call.
   void sum(int rows);
   /// Where kernels find the result, whatever the number of rows.

@@ -9,8 +9,8 @@
 #include "build_options.h"
 #include "case_walls.h"
 #include "damping_zones.h"
-#include "exact_sums.h"
 #include "drains.h"
+#include "exact_sums.h"
 #include "guard_impulses.h"
 #include "integrators/integrator.h"
 #include "moving_walls.h"
@@ -65,7 +65,8 @@ class SphSolver final : public Solver, private StepEngine {
 
   // of water in parts, whose solvers know their Parting
   const GridShape& grid() const { return grid_shape_; }
-  /// From how far others' state acts on a particle's rates within a step, m: through the pressure of a wall's element, from twice the support.
+  /// From how far others' state acts on a particle's rates within a step, m: through the pressure of a wall's element, from twice the
+  /// support.
   double greatest_reach() const { return (elements_ ? 2 : 1) * discretisation_.support; }
   /// How far a particle, at the most, is from where it was sorted when its neighbours are gone over, m.
   double greatest_drift() const;

@@ -122,7 +122,8 @@ void SphSolver<Real>::bind_reductions() {
   compute::Arguments energies = arguments();
   damping_.add_to(energies);
   energies.value("rows", energy_rows_).value("pieces", energy_pieces_).value("segment", energy_segment_);
-  kernels_.energy_pieces = kernel("energy_pieces", energies.memory("quanta", std::as_const(energy_quanta_on_device_)).memory("energies", energy_parts_));
+  kernels_.energy_pieces =
+      kernel("energy_pieces", energies.memory("quanta", std::as_const(energy_quanta_on_device_)).memory("energies", energy_parts_));
   energy_sums_.bind(device_, *make_, arguments(), energy_parts_, exact_places(field::energy_count));
   kernels_.packing_chunks = kernel("packing_chunks", arguments().memory("sums", packing_parts_));
   packing_sums_.bind(device_, *make_, arguments(), packing_parts_, 1);

@@ -134,8 +134,7 @@ std::vector<WallWrench> WallWrenches<Real>::find(Slot state, const std::vector<i
   for (std::size_t k = 0; k < owners.size(); ++k)
     for (int part = 0; part < 4; ++part)
       for (int axis = 0; axis < 3; ++axis)
-        result[k][part][axis] =
-            exact_value(&totals[k * places], 3 * part + axis, field::wrench_count, scale_.quanta[part < 2 ? 0 : 1]);
+        result[k][part][axis] = exact_value(&totals[k * places], 3 * part + axis, field::wrench_count, scale_.quanta[part < 2 ? 0 : 1]);
   return result;
 }
 

@@ -177,13 +177,19 @@ TEST(PartedSolver, AlsoByRiemannProblemsInDoublePrecision) {
   expect_same_bits(scene, 60, {2});
 }
 
-/// Two bodies beside the cut and over it, with a gap of half a spacing between them, in a tank that is shaken along.
-TEST(PartedSolver, AlsoWithBodiesThatTheWaterMoves) {
+/// Two bodies beside the cut and over it, with a gap of half a spacing between them.
+Case two_afloat() {
   Case scene = running_out(2);
   scene.fluid.spacing = 0.04;
   scene.tank.motion = Motion::commanded;
   scene.bodies = {afloat("left", Box{Vector3d(0.16, 0, 0.2), Vector3d(0.32, 0, 0.44)}),
                   afloat("right", Box{Vector3d(0.34, 0, 0.2), Vector3d(0.46, 0, 0.44)})};
+  return scene;
+}
+
+/// In a tank that is shaken along.
+TEST(PartedSolver, AlsoWithBodiesThatTheWaterMoves) {
+  Case scene = two_afloat();
   const Vector3d shake(2, 0, 0);
   const std::vector<char> one = afloat_after(scene, 1, 120, 30, shake);
   EXPECT_TRUE(afloat_after(scene, 2, 120, 30, shake, spoiled()) == one);
@@ -236,12 +242,12 @@ TEST(PartedSolver, AlsoByLeastSquares) {
   expect_same_bits(scene, 60, {2});
 }
 
-/// Beyond its last part the first follows; of two, either has the other on both sides. The grid is longer than the tank by most of a support.
+/// Beyond its last part the first follows; of two, either has the other on both sides. The grid is longer than the tank by most of a
+/// support.
 TEST(PartedSolver, AlsoInAPeriodicTank) {
   Case scene = box_case(Vector3d(1.6, 0, 0.4), 0.3, 0.02);
   scene.gravity = Vector3d(3, 0, -9.81);
   scene.tank.periodic = {true, false, false};
-  scene.numerics.shifting = Shifting::sun;
   expect_same_bits(scene, 150, {2, 3});
   PartedSolverOptions options = spoiled();
   options.cut_every = 7;
@@ -302,11 +308,9 @@ TEST(PartedSolver, AlsoWhereWaterComesAndGoes) {
 
 /// Points, forces and energies; and no step depends on it.
 TEST(PartedSolver, PartsReadTheSame) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = two_afloat();
   scene.numerics.integrator = Integrator::runge_kutta_4;
   scene.numerics.scheme = Scheme::riemann_parshikov;
-  scene.bodies = {afloat("box", Box{Vector3d(0.34, 0, 0.2), Vector3d(0.46, 0, 0.44)})};
   std::vector<Vector3d> places;
   for (double x = 0; x <= 1.2; x += 0.013)
     for (double z = 0; z <= 0.4; z += 0.05) places.emplace_back(x, 0, z);

@@ -204,7 +204,7 @@ Case moved(int dimensions, WallElements elements) {
 /// Over the whole floor, long enough for two parts.
 Case long_water(int dimensions) {
   Case scene = moved(dimensions, WallElements::facet);
-  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.35, dimensions == 3 ? 0.25 : 0, 0.1)}};
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.35, dimensions == 3 ? 0.25 : 0, 0.15)}};
   return scene;
 }
 
