@@ -240,6 +240,9 @@ SolverStatus status_message(const Case& checked, const SolverState& solver, cons
   message.shepard_bounded = solver.shepard_bounded;
   message.fits_of_first_order = solver.fits_of_first_order;
   message.fits_below_first_order = solver.fits_below_first_order;
+  message.parts = static_cast<std::uint32_t>(solver.parts);
+  message.imbalance = solver.imbalance;
+  message.cuts = solver.cuts;
   return message;
 }
 

@@ -160,9 +160,15 @@ void ThreadGroup::run(const std::function<void(int)>& work) {
       work(rank);
       shared_->end_turn(rank);
     } catch (...) {
-      const std::lock_guard<std::mutex> lock(shared_->mutex);
-      if (!shared_->failed) shared_->failed = std::current_exception();
-      shared_->changed.notify_all();
+      {
+        const std::lock_guard<std::mutex> lock(shared_->mutex);
+        if (!shared_->failed) shared_->failed = std::current_exception();
+        shared_->changed.notify_all();
+      }
+      try {
+        shared_->end_turn(rank);
+      } catch (...) {  // the first failure is told
+      }
     }
   };
   std::vector<std::thread> threads;

@@ -385,6 +385,10 @@ SolverState Simulation::state() const {
   state.shepard_bounded = static_cast<std::uint64_t>(parts.report.shepard_bounded);
   state.fits_of_first_order = parts.report.counted("fits_of_first_order");
   state.fits_below_first_order = parts.report.counted("fits_below_first_order");
+  const PartsState in_parts = parts.solver->parts();
+  state.parts = in_parts.count;
+  state.imbalance = in_parts.imbalance;
+  state.cuts = in_parts.cuts;
   return state;
 }
 

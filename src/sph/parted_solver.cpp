@@ -101,7 +101,9 @@ class PartedSolver final : public Solver {
     for (int rank = 0; rank < team_.size(); ++rank) {
       add_part(rank, devices[rank], scene, layout, discretisation, centres);
       threads_->at_end_of_turn(rank, [device = devices[rank]] { device.finish(); });
+      devices[rank].finish();  // before another's kernels are loaded
     }
+    check_devices();
     check_room();
   }
 
@@ -178,6 +180,7 @@ class PartedSolver final : public Solver {
     return parts_[0]->time_step();
   }
   std::size_t particle_count() const override { return stale_whole_ ? parts_[0]->particles() : whole_.particle_count(); }
+  PartsState parts() const override { return {team_.size(), steps_since_cut_ > 0 ? parts_[0]->imbalance() : 1.0, cuts_}; }
   void let_in(const NewParticles& particles) override {
     check(particles);
     whole_.open();
@@ -257,15 +260,13 @@ class PartedSolver final : public Solver {
   std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
   std::vector<Bytes> ask(PartOrder order) const { return ask(Packed().value(order)); }
 
-  Parting parting_for(const Case& scene, const Discretisation& d) const {
+  Parting parting_for(const Case& scene, const Discretisation& d) {
     Parting parting;
     parting.axis = axis_of_parts(d);
     const GridShape& grid = whole_.grid();
-    const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
-    const int places_a_support = static_cast<int>(std::lround(d.support / place));
-    const int supports = supports_of_block(d, parting.axis);
-    parting.block = supports * places_a_support;
+    const double place = place_ = parting.axis == 0 ? grid.slot_length : grid.row_side;
     parting.segment = slots_of_segment(d, grid);
+    parting.block = parting.axis == 0 ? parting.segment : 1;  // no tile has particles of two rows
     parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
     parting.periodic = scene.tank.periodic[parting.axis];
     // a particle's drift, and that of those it looks for; and places beyond the end of a periodic tank, where nobody is
@@ -285,8 +286,25 @@ class PartedSolver final : public Solver {
     ask(order);
   }
 
-  /// Of blocks, the least that a part may have: halos are of the parts beside it.
-  int least_blocks() const { return (parting_.halo + options_.halo_less + parting_.block - 1) / parting_.block; }
+  /// Of blocks, the least that a part may have: halos are of the parts beside it, and none may be in that of the one beyond when it comes
+  /// into it.
+  int least_blocks() const {
+    const int way = team_.size() > 2 ? static_cast<int>(std::ceil(2 * whole_.greatest_drift() / place_)) : 0;
+    return (parting_.halo + options_.halo_less + way + parting_.block - 1) / parting_.block;
+  }
+
+  /// Of one kind, or at least with the same grid.
+  void check_devices() const {
+    const PartFacts first = parts_[0]->facts();
+    for (int rank = 1; rank < team_.size(); ++rank) {
+      const PartFacts other = parts_[rank]->facts();
+      if (other.digest != first.digest)
+        throw Error(other.kind + " makes another grid of this case than " + first.kind + ": choose devices of one kind.");
+      if (other.kind != first.kind)
+        log(LogLevel::warning, team_.name_of(rank) + " is on " + other.kind + ", the first on " + first.kind +
+                                   ": the last bits of the water depend on where it is cut.");
+    }
+  }
 
   /// Throws if the water is too short for so many parts.
   void check_room() { cuts_for(whole_.particles_in_blocks(parting_)); }
@@ -323,10 +341,18 @@ class PartedSolver final : public Solver {
 
   void cut() {
     SphSolver<Real>& all = whole();
-    const std::vector<int> cuts = cuts_for(all.particles_in_blocks(parting_));
+    std::vector<int> cuts;
+    try {
+      cuts = cuts_for(all.particles_in_blocks(parting_));
+    } catch (const Error&) {  // the water has drawn together: those that there are do still
+      if (stale_parts_) throw;
+      lost_steps_ = 0;
+      return;
+    }
     ask(Packed().value(PartOrder::cut).values(cuts).values(all.save()));
     tell_motions();
     stale_parts_ = false;
+    ++cuts_;
     steps_since_cut_ = 0;
     lost_steps_ = 0;
   }
@@ -346,7 +372,8 @@ class PartedSolver final : public Solver {
   std::unique_ptr<parallel::ThreadGroup> threads_;  ///< of parts in this process
   parallel::Team& team_;
   mutable SphSolver<Real> whole_;
-  bool is_open_;  ///< water may come in
+  bool is_open_;      ///< water may come in
+  double place_ = 0;  ///< m, of a place along the axis of the parts
   Parting parting_;
   std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
   std::vector<Bytes> coming_;                       ///< orders to let particles in
@@ -358,6 +385,7 @@ class PartedSolver final : public Solver {
   bool stale_parts_ = true;
   bool has_started_ = false;
   int steps_since_cut_ = 0;
+  std::uint64_t cuts_ = 0;
   double lost_steps_ = 0, load_when_cut_ = 1;
 };
 

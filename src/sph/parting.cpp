@@ -5,10 +5,9 @@
 
 namespace wavetank {
 
-int supports_of_block(const Discretisation& discretisation, int axis) { return std::clamp(discretisation.cells[axis] / 16, 2, 8); }
-
 int slots_of_segment(const Discretisation& discretisation, const GridShape& grid) {
-  return supports_of_block(discretisation, 0) * std::max(static_cast<int>(std::lround(discretisation.support / grid.slot_length)), 1);
+  const int supports = std::clamp(discretisation.cells[0] / 16, 2, 8);
+  return supports * std::max(static_cast<int>(std::lround(discretisation.support / grid.slot_length)), 1);
 }
 
 const std::vector<FieldRow>& part_fields() {

@@ -31,9 +31,8 @@ struct Parting {
   bool wraps() const { return periodic && group->size() > 1; }
 };
 
-/// Kernel supports of a block: fewer in small tanks, so that they have some of them; more where that costs fewer tiles that are not full.
-int supports_of_block(const Discretisation& discretisation, int axis);
-/// Slots, of which tiles have particles together where the water is cut into parts, and whose forces on walls are found together.
+/// Slots, of which tiles have particles together where the water is cut into parts, and whose forces on walls are found together: fewer in
+/// small tanks, so that they have some of them; more where that costs fewer tiles that are not full.
 int slots_of_segment(const Discretisation& discretisation, const GridShape& grid);
 
 /// What a solver of a part has besides: which particles are its own, and where parts end.

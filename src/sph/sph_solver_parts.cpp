@@ -196,8 +196,11 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   }
   greatest.push_back(counted[reports_.integer("particles")]);
   greatest = group.greatest(greatest);
+  const std::string mismatch = std::exchange(part_->mismatch, "");
+  counts.push_back(mismatch.empty() ? 0 : 1);
   counts.push_back(static_cast<std::int64_t>(left_.size()));
   counts = group.sums(counts);
+  const bool halos_differ = counts[counts.size() - 2] > 0;
   part_->most_own = static_cast<std::int64_t>(greatest.back());
   std::map<std::string, double> found;
   std::size_t next_greatest = 0, next_count = 0;
@@ -232,7 +235,10 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
     const std::string& name = reports_.rows()[k].name;
     report.more[name] = found[name];
   }
-  if (report.not_finite + report.outside + report.too_fast == 0) return report;
+  const bool sound = report.not_finite + report.outside + report.too_fast == 0;
+  if (sound && halos_differ)
+    throw Error(mismatch.empty() ? "another part of the water has other particles in its halo than it was sent" : mismatch);
+  if (sound) return report;
   // the one of the least id is told of, by the part that has it
   int first = counted[reports_.integer("offender")];
   if (only_infected) first = std::min(first, counted[reports_.integer("first_infected")]);

@@ -55,6 +55,7 @@ class WaterPart {
   int watched() const { return watched_; }
 
   std::vector<std::vector<Access>> exchanges;  ///< of each stage of the schedule
+  std::string mismatch;                        ///< of halos in this step, which have other particles than were sent: a sentence, or ""
   std::int64_t all = 0;                        ///< particles, of all parts together
   std::int64_t most_own = 0;                   ///< own particles of the part that has the most, after the last step
 

@@ -134,6 +134,10 @@ class Ranks(ProgramTest):
                 self.assertIn(steps, result.stdout)
                 self.assertEqual(self.bytes_of("ranks.snapshot"), self.bytes_of("threads.snapshot"))
                 self.assertEqual(self.samples_of("ranks.bag"), 11)
+                with rosbag.Bag(self.path("ranks.bag")) as bag:
+                    statuses = [message for _, message, _ in bag.read_messages("/wavetank/status")]
+                self.assertEqual(statuses[-1].parts, ranks)
+                self.assertGreaterEqual(statuses[-1].imbalance, 1)
 
     def test_a_case_that_cannot_be_cut_is_refused_once(self):
         corner = [{"box": {"min": [0, 0, 0], "max": [0.05, 0, 0.4]}}]

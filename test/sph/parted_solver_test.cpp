@@ -351,7 +351,13 @@ TEST(PartedSolver, CutsDoNotMatter) {
   const std::vector<char> one = state_after(scene, 1, 100);
   PartedSolverOptions options = spoiled();
   options.cut_every = 5;
-  EXPECT_TRUE(state_after(scene, 2, 100, options) == one);
+  PartedTank tank(scene, 2, options);
+  ASSERT_TRUE(tank.run(100));
+  EXPECT_TRUE(tank.solver->save() == one);
+  EXPECT_EQ(tank.solver->parts().count, 2);
+  EXPECT_EQ(tank.solver->parts().cuts, 20u);
+  EXPECT_GE(tank.solver->parts().imbalance, 1);
+  EXPECT_LT(tank.solver->parts().imbalance, 1.3);
   options.uneven = 1;
   EXPECT_TRUE(state_after(scene, 2, 100, options) == one);
 }
@@ -390,6 +396,26 @@ TEST(PartedSolver, StopsInTheSameStepWithTheSameReport) {
     return std::make_tuple(steps, report.offender_id, report.too_fast, report.offender_velocity.x(), report.time_step, report.guard_hits);
   };
   EXPECT_EQ(stop(1), stop(2));
+}
+
+/// Of a particle that is nowhere the watchdog tells, wherever halos expect it.
+TEST(PartedSolver, TellsOfAParticleThatIsNowhere) {
+  for (const bool ring : {false, true}) {
+    Case scene = box_case(Vector3d(1.6, 0, 0.4), 0.3, 0.02);
+    scene.tank.periodic = {ring, false, false};
+    PartedTank tank(scene, 3);
+    ASSERT_TRUE(tank.run(3));
+    NewParticles wild;
+    wild.position.emplace_back(0.8, 0, 0.35);
+    wild.velocity.emplace_back(1e30, 0, 1e30);
+    wild.volume.push_back(4e-4);
+    wild.pressure.push_back(0);
+    tank.solver->let_in(wild);
+    StepReport report = tank.solver->advance();
+    for (int k = 0; k < 3 && report.valid(); ++k) report = tank.solver->advance();
+    EXPECT_FALSE(report.valid()) << ring;
+    EXPECT_EQ(report.offender_id, tank.layout.particles.size()) << ring;
+  }
 }
 
 TEST(PartedSolver, RefusesWaterThatIsTooShort) {

@@ -47,6 +47,9 @@ struct SolverState {
   std::uint64_t shepard_bounded = 0;         ///< in the last step: particles whose γ was below 0.05 or above 1.005
   std::uint64_t fits_of_first_order = 0;     ///< likewise: particles whose least squares fell back to first order
   std::uint64_t fits_below_first_order = 0;  ///< likewise: to what few neighbours tell
+  int parts = 1;                             ///< of the water
+  double imbalance = 1;                      ///< particles of the part that has the most, over those of the mean
+  std::uint64_t cuts = 0;                    ///< times that the water was cut into parts
 };
 
 /// Of an opening, since the start.

@@ -148,6 +148,13 @@ class WallMover {
   virtual WallMotions to_end(double time_step, const std::vector<WallWrench>& wrenches) = 0;
 };
 
+/// Of the water in parts.
+struct PartsState {
+  int count = 1;
+  double imbalance = 1;    ///< particles of the part that has the most, over those of the mean
+  std::uint64_t cuts = 0;  ///< times that the water was cut since the start of the run
+};
+
 /// How much of the volume that the particles' densities say is not there, because they lie upon each other.
 struct LostVolume {
   double lost = 0;                                  ///< m³ (2-D: m²)
@@ -234,6 +241,7 @@ class Solver {
   virtual double shorten_step(double longest) = 0;
 
   virtual std::size_t particle_count() const = 0;
+  virtual PartsState parts() const { return {}; }
   /// These come into the water at the end of the next step, in their order, with ids that no particle had before. Memory on the device
   /// grows with them. (By the symplectic integrator their compressions still change by half that step, as all others do then.) Throws Error
   /// if the lists are not of one length, or if a value is not finite or a volume not greater than 0.

@@ -213,7 +213,10 @@ __kernel void energy_pieces(__constant const parameters_t* p, int rows, int piec
       find_energies(values, p, i, state, stride, rates, damping_count, dampings);
       for (int k = 0; k < summed; ++k) add_compensated(values[k], &sums[k], &rests[k]);
     }
-    for (int k = 0; k < summed; ++k) add_exact(totals, k, ENERGY_COUNT, quanta[k] * sums[k]);
+    for (int k = 0; k < summed; ++k) {
+      add_exact(totals, k, ENERGY_COUNT, quanta[k] * sums[k]);
+      if (rests[k] != R(0.0)) add_exact(totals, k, ENERGY_COUNT, -quanta[k] * rests[k]);
+    }
   }
   carry_rests(totals, ENERGY_COUNT);
   for (int k = 0; k < places; ++k) energies[(long)item * places + k] = totals[k];
