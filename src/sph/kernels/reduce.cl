@@ -214,8 +214,7 @@ __kernel void energy_pieces(__constant const parameters_t* p, int rows, int piec
       for (int k = 0; k < summed; ++k) add_compensated(values[k], &sums[k], &rests[k]);
     }
     for (int k = 0; k < summed; ++k) {
-      add_exact(totals, k, ENERGY_COUNT, quanta[k] * sums[k]);
-      if (rests[k] != R(0.0)) add_exact(totals, k, ENERGY_COUNT, -quanta[k] * rests[k]);
+      add_exact_less(totals, k, ENERGY_COUNT, quanta[k] * sums[k], quanta[k] * rests[k]);
     }
   }
   carry_rests(totals, ENERGY_COUNT);
