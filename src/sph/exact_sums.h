@@ -6,9 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "tables/device_sizes.h"
+
 namespace wavetank {
 
-/// Sums as whole numbers (exact_sums.cl): a value is one of so many quanta, and rests of one.
+/// Sums as whole numbers (exact_sums.cl): a value is so many quanta, and rests, 2⁻³⁸ of a quantum each. A row of `values` sums has so many
+/// places. A value that is not finite, or beyond 10¹⁵ quanta, some 10⁹ typical ones, makes the whole row NaN.
 constexpr int exact_places(int values) { return 2 * values + 1; }
 
 /// Quanta of one unit, where values measure about `typical` units: a power of two, so that no bit is lost. A millionth of that is one; of
@@ -25,9 +28,9 @@ struct ExactScale {
 /// Of a row of sums, the k-th in units. NaN where a value was lost.
 inline double exact_value(const std::int64_t* row, int k, int values, double quanta) {
   if (row[exact_places(values) - 1] != 0) return std::numeric_limits<double>::quiet_NaN();
-  constexpr int rest_bits = 38;
-  const std::int64_t carried = row[values + k] >> rest_bits, rest = row[values + k] - carried * (std::int64_t{1} << rest_bits);
-  return (static_cast<double>(row[k] + carried) + std::ldexp(static_cast<double>(rest), -rest_bits)) / quanta;
+  const std::int64_t carried = row[values + k] >> field::rest_bits,
+                     rest = row[values + k] - carried * (std::int64_t{1} << field::rest_bits);
+  return (static_cast<double>(row[k] + carried) + std::ldexp(static_cast<double>(rest), -field::rest_bits)) / quanta;
 }
 
 }  // namespace wavetank

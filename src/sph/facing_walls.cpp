@@ -99,8 +99,7 @@ void FacingWalls<Real>::add(Slot state, int regions) {
   if (count_ == 0) return;
   sweeps_.at(state).launch(count_);
   items_ = regions * chunks_;
-  constexpr int values = 6;  // forces and their moments
-  const std::size_t size = exact_places(values) * static_cast<std::size_t>(items_);
+  const std::size_t size = exact_places(field::facing_count) * static_cast<std::size_t>(items_);
   if (sums_.size() < size) sums_ = compute::Buffer<std::int64_t>(device_, size);
   chunk_kernel_.launch(items_);
   total_kernel_.launch(regions);

@@ -67,8 +67,10 @@ void GuardImpulses<Real>::gather(int chunks) {
 }
 
 template <class Real>
-void GuardImpulses<Real>::read() {
+void GuardImpulses<Real>::read(bool any) {
   if (!std::exchange(gathered_, false)) return;
+  std::fill(values_.begin(), values_.end(), 0.0);
+  if (!any) return;
   std::vector<std::int64_t> sums = sums_.download();
   if (group_ != nullptr) sums = group_->sums(sums);
   for (int owner = 0; owner < owners_; ++owner)

@@ -32,8 +32,8 @@ class GuardImpulses {
   void reserve(Stride stride);
   /// Of so many particles from the first of them on.
   void clear_hits(int first, int count);
-  /// Them, if they were queued: the same of all parts.
-  void read();
+  /// Them, if they were queued: the same of all parts. `any`: the guard has hit a particle of any part, or they are zero.
+  void read(bool any);
   /// No hits, and nothing taken.
   void clear();
   /// field::impulse_count values each owner, N·s and N·m·s, of the last step.

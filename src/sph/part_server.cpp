@@ -25,8 +25,7 @@ std::vector<Eigen::Vector3d> vectors_of(const std::vector<double>& numbers) {
 FirstOrder first_order(Unpacked& from) {
   FirstOrder order;
   order.parting = from.value<Parting>();
-  const auto numbers = from.values<double>();
-  order.centres = vectors_of(numbers);
+  order.centres = vectors_of(from.values<double>());
   order.scene = from.text();
   return order;
 }
@@ -175,18 +174,9 @@ class PartServerOf final : public PartServer {
         solver_.restore(from.values<char>());
         return {};
       }
-      case PartOrder::points: {
-        PointsOfAll& points = points_[from.value<int>()];
-        points = PointsOfAll();
-        points.wanted = from.value<PointValues>();
-        points.places = vectors_of(from.values<double>());
-        return {};
-      }
-      case PartOrder::forget:
-        for (const int number : from.values<int>()) points_.erase(number);
-        return {};
       case PartOrder::evaluate:
-        return evaluate(points_.at(from.value<int>()));
+        for (const int number : from.values<int>()) points_.erase(number);
+        return evaluate(points_from(from));
       case PartOrder::let_in:
         solver_.let_in(new_particles_from(from));
         return {};
@@ -233,7 +223,7 @@ class PartServerOf final : public PartServer {
   }
 
   /// A set of points, and those of it that lie in the part.
-  struct PointsOfAll {
+  struct PointsInPart {
     PointValues wanted = PointValues::pressure;
     std::vector<Eigen::Vector3d> places;
     int cuts = -1;  ///< for which these were found
@@ -241,7 +231,16 @@ class PartServerOf final : public PartServer {
     std::unique_ptr<PointSet> on_device;
   };
 
-  Bytes evaluate(PointsOfAll& points) {
+  PointsInPart& points_from(Unpacked& from) {
+    PointsInPart& points = points_[from.value<int>()];
+    if (!from.value<bool>()) return points;
+    points = PointsInPart();
+    points.wanted = from.value<PointValues>();
+    points.places = vectors_of(from.values<double>());
+    return points;
+  }
+
+  Bytes evaluate(PointsInPart& points) {
     if (points.cuts != cuts_) {
       points.cuts = cuts_;
       points.own = solver_.own_points(points.places);
@@ -267,7 +266,7 @@ class PartServerOf final : public PartServer {
   std::vector<WallWrench> wrenches_;
   FluidEnergies energies_;
   int cuts_ = 0;  ///< so far
-  std::map<int, PointsOfAll> points_;
+  std::map<int, PointsInPart> points_;
   WallMover* leading_ = nullptr;
   std::optional<WallMotions> motions_;
 };

@@ -30,9 +30,8 @@ enum class PartOrder : char {
   save,      ///< replies with the state of the part's own particles
   cut,       ///< cuts, and a state of all the water, of which the part takes what is its
   memory,    ///< replies with the bytes on its device
-  points,    ///< a set of points by its number: what is wanted, and where they are
-  forget,    ///< sets of points
-  evaluate,  ///< replies with which of a set lie in the part, and the water there
+  evaluate,  ///< numbers of sets of points to forget, one to evaluate, and if that is new what is wanted and where they are; replies with
+             ///< which lie in the part, and the water there
   wrenches,  ///< those on all owners by all the water
   energies,  ///< of all the water
 };

@@ -37,12 +37,16 @@ bool need_turns(const std::vector<compute::Device>& devices) {
   return std::count_if(devices.begin(), devices.end(), is_pocl) > 1;
 }
 
-/// Which parts have other last bits, and which have fewer cores than their devices have threads.
-void tell_of_parts(const parallel::Team& team, const std::vector<PartFacts>& parts) {
+/// Which parts have other last bits.
+void tell_of_kinds(const parallel::Team& team, const std::vector<PartFacts>& parts) {
   for (std::size_t k = 1; k < parts.size(); ++k)
     if (parts[k].kind != parts[0].kind)
       log(LogLevel::warning, team.name_of(static_cast<int>(k)) + " is on " + parts[k].kind + ", the first on " + parts[0].kind +
                                  ": the last bits of the water depend on where it is cut.");
+}
+
+/// Which processes have fewer cores than their devices have threads.
+void tell_of_cores(const parallel::Team& team, const std::vector<PartFacts>& parts) {
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].cores >= parts[k].units || parts[k].cores == 0) continue;
     log(LogLevel::warning, team.name_of(static_cast<int>(k)) + " may use " + std::to_string(parts[k].cores) +
@@ -127,7 +131,8 @@ class PartedSolver final : public Solver {
             team_.name_of(rank) +
             " has made another tank of this case than the first: its program must be the same, and so must the meshes that the case "
             "names.");
-    tell_of_parts(team_, facts);
+    tell_of_kinds(team_, facts);
+    tell_of_cores(team_, facts);
   }
 
   PackingReport pack(int iterations, const std::function<void(double)>& progress) override { return changed().pack(iterations, progress); }
@@ -182,7 +187,7 @@ class PartedSolver final : public Solver {
   std::size_t particle_count() const override { return stale_whole_ ? parts_[0]->particles() : whole_.particle_count(); }
   PartsState parts() const override { return {team_.size(), steps_since_cut_ > 0 ? parts_[0]->imbalance() : 1.0, cuts_}; }
   void let_in(const NewParticles& particles) override {
-    check(particles);
+    check_new_particles(particles);
     whole_.open();
     coming_.push_back(let_in_order(particles));
   }
@@ -201,11 +206,11 @@ class PartedSolver final : public Solver {
   std::vector<PointValue> evaluate(const PointSet& set) override {
     const auto& points = dynamic_cast<const PointsOfAll&>(set);
     if (!parts_have_it()) return whole_.evaluate(points.of(whole_));
-    if (!dropped_points_->empty()) ask(Packed().value(PartOrder::forget).values(std::exchange(*dropped_points_, {})));
-    if (!std::exchange(points.told, true))
-      ask(Packed().value(PartOrder::points).value(points.number).value(points.wanted).values(numbers_of(points.places)));
+    Packed order;
+    order.value(PartOrder::evaluate).values(std::exchange(*dropped_points_, {})).value(points.number).value(!points.told);
+    if (!std::exchange(points.told, true)) order.value(points.wanted).values(numbers_of(points.places));
     std::vector<PointValue> values(points.places.size());
-    for (const Bytes& reply : ask(Packed().value(PartOrder::evaluate).value(points.number))) {
+    for (const Bytes& reply : ask(order)) {
       Unpacked from(reply);
       const auto own = from.values<int>();
       const auto numbers = from.values<double>();
@@ -295,22 +300,19 @@ class PartedSolver final : public Solver {
 
   /// Of one kind, or at least with the same grid.
   void check_devices() const {
-    const PartFacts first = parts_[0]->facts();
-    for (int rank = 1; rank < team_.size(); ++rank) {
-      const PartFacts other = parts_[rank]->facts();
-      if (other.digest != first.digest)
-        throw Error(other.kind + " makes another grid of this case than " + first.kind + ": choose devices of one kind.");
-      if (other.kind != first.kind)
-        log(LogLevel::warning, team_.name_of(rank) + " is on " + other.kind + ", the first on " + first.kind +
-                                   ": the last bits of the water depend on where it is cut.");
-    }
+    std::vector<PartFacts> facts;
+    for (const auto& part : parts_) facts.push_back(part->facts());
+    for (const PartFacts& other : facts)
+      if (other.digest != facts[0].digest)
+        throw Error(other.kind + " makes another grid of this case than " + facts[0].kind + ": choose devices of one kind.");
+    tell_of_kinds(team_, facts);
   }
 
   /// Throws if the water is too short for so many parts.
   void check_room() { cuts_for(whole_.particles_in_blocks(parting_)); }
 
   std::vector<int> cuts_for(std::vector<std::int64_t> weights) const {
-    // where water comes in, there may be none yet
+    // where water comes in, there may be none yet: empty blocks count for something
     for (std::int64_t& weight : weights) weight = is_open_ ? 1000 * weight + 1 : weight;
     std::vector<int> cuts = parallel::cut_into_slabs(weights, team_.size(), least_blocks());
     if (options_.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options_.uneven, least_blocks(), cuts[2] - least_blocks());
@@ -341,9 +343,10 @@ class PartedSolver final : public Solver {
 
   void cut() {
     SphSolver<Real>& all = whole();
+    const std::vector<std::int64_t> weights = all.particles_in_blocks(parting_);
     std::vector<int> cuts;
     try {
-      cuts = cuts_for(all.particles_in_blocks(parting_));
+      cuts = cuts_for(weights);
     } catch (const Error&) {  // the water has drawn together: those that there are do still
       if (stale_parts_) throw;
       lost_steps_ = 0;
@@ -383,7 +386,7 @@ class PartedSolver final : public Solver {
   std::optional<WallMotions> motions_;                                                       ///< of walls that have moved, now
   mutable bool stale_whole_ = false;
   bool stale_parts_ = true;
-  bool has_started_ = false;
+  bool has_started_ = false;  ///< or was restored: before that there is nothing that parts could have
   int steps_since_cut_ = 0;
   std::uint64_t cuts_ = 0;
   double lost_steps_ = 0, load_when_cut_ = 1;

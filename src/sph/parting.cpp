@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wavetank {
 
@@ -18,9 +19,19 @@ const std::vector<FieldRow>& part_fields() {
 const std::vector<ParameterRow>& part_parameters() {
   static const std::vector<ParameterRow> rows = [] {
     std::vector<ParameterRow> made;
-    for (const char* name : {"part_axis", "own_begin", "own_end", "halo_begin", "halo_end", "near_begin", "near_end", "halo_width",
-                             "part_period", "part_pair"})
-      made.push_back({name, "", "of a part of the water", [](const ParameterSource&) { return 0.0; }, ParameterRow::Kind::integer});
+    const std::pair<const char*, const char*> meanings[] = {
+        {"part_axis", "across which the water is cut"},
+        {"own_begin", "the part's first place"},
+        {"own_end", "and that after its last"},
+        {"halo_begin", "the first place of its halo; in a ring beyond the tank's end"},
+        {"halo_end", "and that after its last"},
+        {"near_begin", "where the part before it begins, likewise"},
+        {"near_end", "where the part after it ends"},
+        {"halo_width", "places"},
+        {"part_period", "places of the tank where the parts form a ring, else 0"},
+        {"part_pair", "1: a ring of two, where all that the other needs goes out once"}};
+    for (const auto& [name, meaning] : meanings)
+      made.push_back({name, "", meaning, [](const ParameterSource&) { return 0.0; }, ParameterRow::Kind::integer});
     return made;
   }();
   return rows;
@@ -46,10 +57,14 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
   values.set("part_pair", wraps && last == 1 ? 1 : 0);
 }
 
-bool has_place(const ParameterBlock& values, int place) {
-  const auto is_in = [&](double at) { return at >= values.at("halo_begin") && at < values.at("halo_end"); };
-  const double period = values.at("part_period");  // 0: none
-  return is_in(place) || is_in(place - period) || is_in(place + period);
+std::vector<char> places_had(const ParameterBlock& values, const Parting& parting) {
+  const int begin = static_cast<int>(values.at("halo_begin")), end = static_cast<int>(values.at("halo_end"));
+  std::vector<char> has(parting.places + 2, 0);
+  for (int place = begin; place < end; ++place) {  // beyond an end of a ring, at the other
+    const int there = place < 1 ? place + parting.places : place > parting.places ? place - parting.places : place;
+    has.at(there) = 1;
+  }
+  return has;
 }
 
 std::uint64_t digest_of(std::string_view bytes, std::uint64_t before) {

@@ -19,7 +19,7 @@ struct Parting {
   parallel::Group* group = nullptr;  ///< the part and those beside it; the rest is the same for all
   int axis = 0;                      ///< across which the water is cut
   int halo = 0;                      ///< places beside its own of which a part has the particles of others
-  int block = 0;                     ///< places, the least that a part may have: cuts lie between blocks, of which the last may be longer
+  int block = 0;                     ///< places; cuts lie between blocks, of which the last may be longer
   int segment = 0;                   ///< slots, of which tiles have particles together
   int places = 0;                    ///< in all
   std::size_t room = 0;              ///< for particles in all parts together, by which the grid is as fine as it is
@@ -42,8 +42,8 @@ const std::vector<ParameterRow>& part_parameters();
 /// Sets those of the part of this rank, where the parts begin and end at these blocks.
 void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts);
 
-/// Whether the part whose numbers these are has the particles of a place, as its own or in its halo.
-bool has_place(const ParameterBlock& values, int place);
+/// Of each place, 1 if the part whose numbers these are has its particles, as its own or in its halo.
+std::vector<char> places_had(const ParameterBlock& values, const Parting& parting);
 
 /// To tell whether two processes have the same: of the bytes, after those of which `before` is.
 std::uint64_t digest_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325);

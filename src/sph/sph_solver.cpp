@@ -389,7 +389,6 @@ StepReport SphSolver<Real>::watch() {
   kernels_.watch_groups.launch(groups_);
   kernels_.watch_total.launch(1);
   const std::vector<Real> values = report_.download();
-  guarded_.read();
   std::vector<int> counted(reports_.integer_count());
   std::memcpy(counted.data(), &values[reports_.integers()], counted.size() * sizeof(int));
   if (part_) {
@@ -406,6 +405,7 @@ StepReport SphSolver<Real>::watch() {
   report.outside = count("outside");
   report.too_fast = count("fast");
   report.guard_hits = count("guarded");
+  guarded_.read(report.guard_hits > 0);
   report.shepard_bounded = count("bounded");
   report.let_in = std::exchange(masses_let_in_, {});
   const int with_those_that_leave = count_;

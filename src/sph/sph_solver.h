@@ -27,7 +27,7 @@
 namespace wavetank {
 
 /// Throws Error as Solver::let_in does.
-void check(const NewParticles& particles);
+void check_new_particles(const NewParticles& particles);
 
 /// Its members are in sph_solver.cpp (steps), sph_solver_start.cpp (what comes before them), sph_solver_population.cpp (how many particles
 /// there are), sph_solver_parts.cpp (one part of the water among others), sph_solver_readings.cpp and sph_solver_snapshot.cpp.
@@ -120,8 +120,8 @@ class SphSolver final : public Solver, private StepEngine {
   /// All stay in the water, wherever drains are.
   void sort_all();
   std::vector<int> order_by_id(const std::vector<std::uint32_t>& id) const;
-  /// As Parting counts it, of a coordinate along its axis.
-  int place_in_parts(const Parting& parting, Real coordinate) const;
+  /// As Parting counts them, of coordinates along its axis.
+  std::vector<int> places_in_parts(const Parting& parting, const std::vector<Real>& coordinates) const;
   /// Which of these the part has, as its own or in its halo.
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
   /// Without the other parts, which all have what they need.
@@ -153,8 +153,6 @@ class SphSolver final : public Solver, private StepEngine {
   void refresh(const char* name);
   void spoil(const char* name);
   void sort_part();
-  /// After a sort that the part has done alone.
-  void look_around();
   StepReport watch_parts(const std::vector<Real>& values, const std::vector<int>& counted);
   void bind(const DevicePoints& points) const;
 
@@ -219,7 +217,7 @@ class SphSolver final : public Solver, private StepEngine {
   StepReport watch();
   /// Those that have left in this step, which lie after all others; there are `before` with them.
   std::vector<LeftParticle> find_left(int before) const;
-  /// The same of all parts, at the first; to the others how many they were.
+  /// Those of all parts, at the first; none at the others.
   std::vector<LeftParticle> gather_left();
   std::vector<LeftParticle> left_of(const typename WaterPart<Real>::Arrived& gone) const;
   void describe_offender(StepReport& report, int first) const;

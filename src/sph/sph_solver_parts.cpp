@@ -151,7 +151,6 @@ template <class Real>
 std::vector<LeftParticle> SphSolver<Real>::gather_left() {
   parallel::Group& group = *part_->parting().group;
   std::vector<LeftParticle> all = std::exchange(left_, {});
-  if (!open_) return all;
   if (group.rank() != 0) {
     parallel::Packed message;
     message.value(all.size());
@@ -216,7 +215,7 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   if (found["particles"] != static_cast<double>(part_->all))
     throw Error("the parts of the water have " + std::to_string(static_cast<std::int64_t>(found["particles"])) +
                 " particles together, not " + std::to_string(part_->all) + ": some were lost between them");
-  report.left = gather_left();
+  if (counts.back() > 0) report.left = gather_left();
   report.greatest_speed = greatest_speed_ = found["speed"];
   report.greatest_acceleration = greatest_acceleration_ = found["acceleration"];
   // as reduce.cl has it
@@ -230,6 +229,7 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
   report.outside = static_cast<int>(found["outside"]);
   report.too_fast = static_cast<int>(found["fast"]);
   report.guard_hits = static_cast<int>(found["guarded"]);
+  guarded_.read(report.guard_hits > 0);
   report.shepard_bounded = static_cast<int>(found["bounded"]);
   for (std::size_t k = common_reports().size(); k < reports_.rows().size(); ++k) {
     const std::string& name = reports_.rows()[k].name;
@@ -250,29 +250,37 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
 }
 
 template <class Real>
-int SphSolver<Real>::place_in_parts(const Parting& parting, Real coordinate) const {
+std::vector<int> SphSolver<Real>::places_in_parts(const Parting& parting, const std::vector<Real>& coordinates) const {
   const Real inverse = static_cast<Real>(values_->at(parting.axis == 0 ? "inverse_slot" : "inverse_row"));
-  const Real scaled = coordinate * inverse;
-  const int place = static_cast<int>(std::min(std::max(scaled, Real(0)), Real(1e6))) + 1;
-  return std::min(std::max(place, 1), parting.places);
+  std::vector<int> places;
+  places.reserve(coordinates.size());
+  for (const Real coordinate : coordinates) {
+    const int place = static_cast<int>(std::min(std::max(coordinate * inverse, Real(0)), Real(1e6))) + 1;
+    places.push_back(std::min(std::max(place, 1), parting.places));
+  }
+  return places;
 }
 
 template <class Real>
 std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>& coordinates) const {
+  const std::vector<int> places = places_in_parts(part_->parting(), coordinates);
+  const std::vector<char> has = places_had(*values_, part_->parting());
   std::vector<int> found;
-  for (std::size_t k = 0; k < coordinates.size(); ++k)
-    if (has_place(*values_, place_in_parts(part_->parting(), coordinates[k]))) found.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (has[places[k]] != 0) found.push_back(static_cast<int>(k));
   return found;
 }
 
 template <class Real>
 std::vector<int> SphSolver<Real>::own_points(const std::vector<Eigen::Vector3d>& points) const {
   const int axis = part_->parting().axis;
+  std::vector<Real> coordinates;
+  for (const Eigen::Vector3d& point : points) coordinates.push_back(static_cast<Real>(point[axis] - discretisation_.origin[axis]));
+  const std::vector<int> places = places_in_parts(part_->parting(), coordinates);
+  const double begin = values_->at("own_begin"), end = values_->at("own_end");
   std::vector<int> found;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const int place = place_in_parts(part_->parting(), static_cast<Real>(points[k][axis] - discretisation_.origin[axis]));
-    if (place >= values_->at("own_begin") && place < values_->at("own_end")) found.push_back(static_cast<int>(k));
-  }
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (places[k] >= begin && places[k] < end) found.push_back(static_cast<int>(k));
   return found;
 }
 
@@ -280,8 +288,9 @@ template <class Real>
 std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting& parting) const {
   std::vector<std::int64_t> counts(parting.blocks(), 0);
   const std::vector<Real> state = state_.download();
-  const Real* const coordinates = component(state, parting.axis == 0 ? "x" : parting.axis == 1 ? "y" : "z");
-  for (int i = 0; i < count_; ++i) ++counts[std::min((place_in_parts(parting, coordinates[i]) - 1) / parting.block, parting.blocks() - 1)];
+  const Real* const first = component(state, parting.axis == 0 ? "x" : parting.axis == 1 ? "y" : "z");
+  for (const int place : places_in_parts(parting, std::vector<Real>(first, first + count_)))
+    ++counts[std::min((place - 1) / parting.block, parting.blocks() - 1)];
   return counts;
 }
 

@@ -10,7 +10,7 @@
 
 namespace wavetank {
 
-void check(const NewParticles& particles) {
+void check_new_particles(const NewParticles& particles) {
   const std::size_t count = particles.position.size();
   if (particles.velocity.size() != count || particles.volume.size() != count || particles.pressure.size() != count)
     throw Error("particles are to come in with " + std::to_string(count) + " places, but " + std::to_string(particles.velocity.size()) +
@@ -57,7 +57,7 @@ void SphSolver<Real>::set_count(int count) {
 
 template <class Real>
 void SphSolver<Real>::let_in(const NewParticles& particles) {
-  check(particles);
+  check_new_particles(particles);
   // before anything has changed: a step that finds no memory for them at its end is lost
   reserve(count_ + static_cast<int>(waiting_.position.size() + particles.position.size()));
   open_ = true;

@@ -115,7 +115,7 @@ std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particl
     parting_.group->send(neighbour(side), std::move(bytes));
   }
   std::vector<Arrived> arrived;
-  for (const int side : {1, 0}) {
+  for (const int side : {1, 0}) {  // as refresh() has it
     if (neighbour(side) < 0) continue;
     const parallel::Bytes bytes = parting_.group->receive(neighbour(side));
     const std::size_t particles = bytes.size() / (sizeof(std::uint32_t) + components_ * sizeof(Real));

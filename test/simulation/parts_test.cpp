@@ -1,4 +1,4 @@
-// A simulation on several devices: its samples and snapshots are the same for any number of them, and what they cannot do is refused.
+// A simulation on several devices: its samples and snapshots are the same for any number of them, and water that is too short is refused.
 #include "simulation_fixture.h"
 
 namespace wavetank::parts_test {

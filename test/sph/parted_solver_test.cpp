@@ -8,14 +8,16 @@ namespace wavetank::parted_solver_test {
 namespace {
 
 /// Water that runs out along a tank, over a step.
-Case running_out(int dimensions) {
+Case running_out(int dimensions, double spacing) {
   const double across = dimensions == 3 ? 0.36 : 0;
-  Case scene = box_case(Vector3d(1.2, across, 0.8), 0.4, dimensions == 3 ? 0.04 : 0.02);
+  Case scene = box_case(Vector3d(1.2, across, 0.8), 0.4, spacing);
   scene.dimensions = dimensions;
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(0.5, across, 0.4)}};
   scene.numerics.artificial_viscosity = 0.05;
   return scene;
 }
+
+Case running_out(int dimensions) { return running_out(dimensions, dimensions == 3 ? 0.04 : 0.02); }
 
 struct PartedTank {
   PartedTank(const Case& checked, int parts, const PartedSolverOptions& options = {})
@@ -143,8 +145,7 @@ TEST(PartedSolver, AlsoIn3D) {
 
 /// A thin plate in the water's way, a belt, and water that is damped.
 TEST(PartedSolver, AlsoWithBodies) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.bodies.resize(2);
   scene.bodies[0].name = "plate";
   scene.bodies[0].shape = Box{Vector3d(0.7, 0, 0), Vector3d(0.72, 0, 0.2)};
@@ -160,8 +161,7 @@ TEST(PartedSolver, AlsoWithBodies) {
 
 /// What sweeps ask of each other's results is exchanged, whatever the case has chosen.
 TEST(PartedSolver, AlsoByOtherMethods) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.numerics.integrator = Integrator::runge_kutta_4;
   scene.numerics.density_diffusion = DensityDiffusion::antuono;
   scene.numerics.shifting = Shifting::sun;
@@ -169,8 +169,7 @@ TEST(PartedSolver, AlsoByOtherMethods) {
 }
 
 TEST(PartedSolver, AlsoByRiemannProblemsInDoublePrecision) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.numerics.integrator = Integrator::predictor_corrector;
   scene.numerics.scheme = Scheme::riemann_parshikov;
   if (has_precision(Precision::double_)) scene.numerics.precision = Precision::double_;
@@ -179,8 +178,7 @@ TEST(PartedSolver, AlsoByRiemannProblemsInDoublePrecision) {
 
 /// Two bodies beside the cut and over it, with a gap of half a spacing between them.
 Case two_afloat() {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.tank.motion = Motion::commanded;
   scene.bodies = {afloat("left", Box{Vector3d(0.16, 0, 0.2), Vector3d(0.32, 0, 0.44)}),
                   afloat("right", Box{Vector3d(0.34, 0, 0.2), Vector3d(0.46, 0, 0.44)})};
@@ -223,16 +221,14 @@ TEST(PartedSolver, AlsoByOtherWalls) {
 
 /// Volumes that follow what moves the particles, with gradients and rates found anew before a step.
 TEST(PartedSolver, AlsoWhereVolumesEvolve) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.numerics.scheme = Scheme::riemann_ale;
   scene.numerics.shifting = Shifting::michel;
   expect_same_bits(scene, 60, {2});
 }
 
 TEST(PartedSolver, AlsoByLeastSquares) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.numerics.gradients = Gradients::mls_corrected;
   scene.numerics.integrator = Integrator::predictor_corrector;
   expect_same_bits(scene, 60, {2});
@@ -332,8 +328,7 @@ TEST(PartedSolver, PartsReadTheSame) {
 
 /// Also by water that is cut anew just then.
 TEST(PartedSolver, AShortenedStepStaysShort) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   PartedSolverOptions options;
   options.cut_every = 10;
   PartedTank tank(scene, 2, options);
@@ -346,8 +341,7 @@ TEST(PartedSolver, AShortenedStepStaysShort) {
 }
 
 TEST(PartedSolver, CutsDoNotMatter) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   const std::vector<char> one = state_after(scene, 1, 100);
   PartedSolverOptions options = spoiled();
   options.cut_every = 5;
@@ -384,8 +378,7 @@ TEST(PartedSolver, OnlyLastBitsDifferFromOneDevice) {
 }
 
 TEST(PartedSolver, StopsInTheSameStepWithTheSameReport) {
-  Case scene = running_out(2);
-  scene.fluid.spacing = 0.04;
+  Case scene = running_out(2, 0.04);
   scene.fluid.sound_speed = 4.0;  // of which the water soon has half
   const auto stop = [&](int parts) {
     PartedTank tank(scene, parts);

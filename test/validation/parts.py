@@ -2,7 +2,8 @@
 """Whether cases are the same to the bit in any number of parts: usage: parts.py PROGRAM ROOT FOLDER [CASE]...
 
 Each of the package's cases (or those named, by their files' names) makes some 200 steps in 2, 3, 4 and 7 parts on one device. Snapshots must be equal to
-the byte, and so must all that the bags have but the status of the run: every sample, pose and cloud. Exit code 1 if any differs."""
+the byte, and so must all that the bags have but the case and the status of the run: every sample, pose and cloud. Exit code 1 if any differs, or if there was
+nothing to compare."""
 
 import hashlib
 import os

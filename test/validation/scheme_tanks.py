@@ -101,11 +101,11 @@ def dam_break(programs, root, folder):
                     "to the end" if ended == "0" else "stopped at %s s: %s" % (found(r"at t = ([\d.]+) s, step", log), stopped),
                     found(r"\nsteps +(\d+)", log),
                     found(r"guard hits +(\d+)", log),
-                    found(r"fastest particle moves at ([\d.]+) m/s", log, "below 6"),
+                    found(r"fastest particle moves at ([\d.]+) m/s", log, "never"),
                     found(r"made by (\S+)", log),
                 ]
             )
-    table(["", "ran", "steps", "guard hits", "fastest particle told of, m/s", "version"], rows)
+    table(["", "ran", "steps", "guard hits", "speed of a particle when one is first above 6 m/s", "version"], rows)
 
 
 def main():

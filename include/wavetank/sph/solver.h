@@ -28,7 +28,8 @@ struct LeftParticle {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the case's coordinates
 };
 
-/// What one step reports to the host: the only thing that leaves the device in a step.
+/// What one step reports to the host: the only thing that leaves the device in a step, but for forces and the guard's impulses where bodies
+/// are free.
 struct StepReport {
   double time_step = 0;              ///< s, of the next step
   double greatest_speed = 0;         ///< m/s
@@ -213,7 +214,7 @@ struct FluidSurface {
   std::vector<double> eigenvalue;        ///< λ, the least of Σ r ⊗ ∇W V with its walls: 1 inside, less towards a free surface
 };
 
-/// The SPH solver of one fluid between walls, on one device.
+/// The SPH solver of one fluid between walls.
 class Solver {
  public:
   virtual ~Solver() = default;

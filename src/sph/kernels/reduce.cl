@@ -1,4 +1,4 @@
-// Reductions over the particles, in a fixed order: chunks of REDUCE_CHUNK by one work-item each, as many chunks of those while there are more than that, and
+// Reductions over the particles, in a fixed order or as sums of whole numbers: chunks of REDUCE_CHUNK by one work-item each, as many chunks of those while there are more than that, and
 // the last ones' results by one. Built without fast-math, and non-finite values are found by their bits all the same.
 #include "common.cl"
 #include "cells.cl"
@@ -189,8 +189,8 @@ INLINE void find_energies(real* values, __constant const parameters_t* p, int i,
   }
 }
 
-// Of a piece of a row, of which each has as many: of each of its segments, which parts do not divide, in the particles' order, and of segments in whole
-// numbers. `quanta`: of each of these sums, a unit.
+// One of `pieces` of each row, every pieces-th segment of it: each segment, which no cut divides, in floating point, and segments in whole numbers.
+// `quanta`: of each of these sums, a unit.
 __kernel void energy_pieces(__constant const parameters_t* p, int rows, int pieces, int segment, __global const int* slot_start, __global const real* state,
                             long stride, __global const real* rates, int damping_count, __global const real* dampings, __global const real* quanta,
                             __global long* energies) {
@@ -213,9 +213,7 @@ __kernel void energy_pieces(__constant const parameters_t* p, int rows, int piec
       find_energies(values, p, i, state, stride, rates, damping_count, dampings);
       for (int k = 0; k < summed; ++k) add_compensated(values[k], &sums[k], &rests[k]);
     }
-    for (int k = 0; k < summed; ++k) {
-      add_exact_less(totals, k, ENERGY_COUNT, quanta[k] * sums[k], quanta[k] * rests[k]);
-    }
+    for (int k = 0; k < summed; ++k) add_exact_less(totals, k, ENERGY_COUNT, quanta[k] * sums[k], quanta[k] * rests[k]);
   }
   carry_rests(totals, ENERGY_COUNT);
   for (int k = 0; k < places; ++k) energies[(long)item * places + k] = totals[k];
@@ -234,7 +232,7 @@ __kernel void packing_chunks(int count, __global const real* rates, long stride,
 }
 
 // Impulse and its moment about the owner's centre that the guard has taken from the particles for each owner, in quanta of either.
-__kernel void guard_chunks(__constant const parameters_t* p, int count, __global const real* state, long stride, __global const int* guard_hits,
+__kernel void guard_chunks(int count, __global const real* state, long stride, __global const int* guard_hits,
                            __global const int* takers, __global const real* lost, int owners, __global const real* motions, real per_impulse,
                            real per_moment, __global long* impulses) {
   const int chunk = get_global_id(0);
@@ -256,20 +254,14 @@ __kernel void guard_chunks(__constant const parameters_t* p, int count, __global
       __global const real* centre = OWNER_MOTION(motions, owner);
       const real rx = state[FIELD_X * stride + i] - centre[0], ry = state[FIELD_Y * stride + i] - centre[1],
                  rz = state[FIELD_Z * stride + i] - centre[2];
-      const real taken[IMPULSE_COUNT] = {per_impulse * px,
-                                         per_impulse * py,
-                                         per_impulse * pz,
-                                         per_moment * (ry * pz - rz * py),
-                                         per_moment * (rz * px - rx * pz),
-                                         per_moment * (rx * py - ry * px)};
       long sums[EXACT(IMPULSE_COUNT)] = {0};
-      for (int k = 0; k < IMPULSE_COUNT; ++k) add_exact(sums, k, IMPULSE_COUNT, taken[k]);
+      add_exact_force(sums, IMPULSE_COUNT, per_impulse, per_moment, px, py, pz, rx, ry, rz);
       for (int k = 0; k < places; ++k) row[owner * places + k] += sums[k];
     }
   }
 }
 
-// Force and torque on each owner of walls, in quanta of either, from what the runs of cells of its region do to it: first of chunks of runs, of which each
+// Force and torque on each owner of walls, in quanta of either, from what the runs of slots of its region do to it: first of chunks of runs, of which each
 // region has as many, some of them empty.
 __kernel void wrench_chunks(int count, int chunks, int regions, int items, __global const int* region_values, __global const real* wrenches,
                             real per_force, real per_moment, __global long* sums) {
@@ -301,7 +293,6 @@ __kernel void wrench_totals(int regions, int chunks, __global const long* sums, 
 }
 
 // What chunks of the pieces of wall that face another owner's (facing_walls.cl) add to the listed owners' pressure forces and torques.
-#define FACING_COUNT 6
 __kernel void facing_chunks(int items, int chunks, int count, __global const int* region_values, __global const real* motions, __global const int* owners,
                             __global const real* places, __global const int* others, __global const real* forces, real per_force, real per_moment,
                             __global long* sums) {
@@ -318,13 +309,7 @@ __kernel void facing_chunks(int items, int chunks, int count, __global const int
       const real sign = owners[s] == owner ? R(1.0) : R(-1.0);
       const real fx = sign * forces[3 * slot * count + s], fy = sign * forces[(3 * slot + 1) * count + s], fz = sign * forces[(3 * slot + 2) * count + s];
       const real rx = places[s] - centre[0], ry = places[count + s] - centre[1], rz = places[2 * count + s] - centre[2];
-      const real parts[FACING_COUNT] = {per_force * fx,
-                                        per_force * fy,
-                                        per_force * fz,
-                                        per_moment * (ry * fz - rz * fy),
-                                        per_moment * (rz * fx - rx * fz),
-                                        per_moment * (rx * fy - ry * fx)};
-      for (int k = 0; k < FACING_COUNT; ++k) add_exact(sum, k, FACING_COUNT, parts[k]);
+      add_exact_force(sum, FACING_COUNT, per_force, per_moment, fx, fy, fz, rx, ry, rz);
     }
   carry_rests(sum, FACING_COUNT);
   for (int k = 0; k < EXACT(FACING_COUNT); ++k) sums[EXACT(FACING_COUNT) * item + k] = sum[k];

@@ -73,6 +73,8 @@ inline Stride stride_for(Stride particles) { return (particles + 31) / 16 * 16; 
   ROW(pose_count, 12, "rotation Q, row by row, and displacement d: x' = Q x + d") \
   ROW(guard_owners, 2, "of how many owners of walls the guard tells apart what they take from one particle") \
   ROW(impulse_count, 6, "impulse, and its moment about the owner's centre") \
+  ROW(facing_count, 6, "what facing walls add to an owner's wrench: pressure force and torque") \
+  ROW(rest_bits, 38, "of a quantum of sums of whole numbers, its rests: 2^38 are one") \
   ROW(facing_owners, 2, "other owners whose walls a piece of wall may face nearer than the support") \
   /* thin walls */ \
   ROW(barrier_edges, 4, "of a barrier") \
