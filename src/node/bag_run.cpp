@@ -1,5 +1,7 @@
 #include "wavetank/node/bag_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <climits>
 #include <cmath>
@@ -67,6 +69,7 @@ BagRun::BagRun(const RunOptions& options, const std::atomic<int>& interrupted, p
 BagRun::Outcome BagRun::run() {
   try {
     start();
+    tell_of_start();
     step_to_the_end();
   } catch (const Interrupted&) {
     return left_start();
@@ -98,6 +101,20 @@ BagRun::Outcome BagRun::run() {
   return interrupted_ != 0 ? Outcome::interrupted : Outcome::done;
 }
 
+void BagRun::pass_start() {
+  if (is_past_start_.exchange(true))
+    while (true) pause();
+}
+
+void BagRun::leave_start(int exit_code) {
+  if (is_past_start_.exchange(true)) return;
+  recorder_.reset();  // which the start does not touch, and neither the other
+  vtk_.reset();
+  left_start();
+  std::fflush(nullptr);
+  _exit(exit_code);
+}
+
 BagRun::Outcome BagRun::left_start() {
   progress_.clear();
   say("interrupted during the start: nothing was simulated and no bag is written");
@@ -111,6 +128,14 @@ void BagRun::cut_short(const Error& full) {
 }
 
 void BagRun::start() {
+  const struct End {
+    BagRun& run;
+    ~End() { run.pass_start(); }
+  } end{*this};
+  make_simulation();
+}
+
+void BagRun::make_simulation() {
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;
   simulation_options.time_kernels = options_.profile;
@@ -121,6 +146,9 @@ void BagRun::start() {
   };
   simulation_ = std::make_unique<Simulation>(case_, simulation_options);
   if (!options_.restore.empty()) simulation_->restore(options_.restore);
+}
+
+void BagRun::tell_of_start() {
   progress_.clear();
   say(simulation_->summary());
   device_ = simulation_->device_description();

@@ -1,9 +1,12 @@
 // Simulates a case without a ROS master and writes a bag: everything but the process's own affairs is in BagRun.
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "wavetank/common/ending_signals.h"
@@ -59,10 +62,37 @@ void print_schedule(const RunOptions& options) {
 
 void catch_signal(int number) { caught_signal = number; }
 
+/// The run of this process while mpirun may end it, which kills a second after it has asked.
+class RunUnderLauncher {
+ public:
+  explicit RunUnderLauncher(BagRun& run) { set(&run); }
+  ~RunUnderLauncher() { set(nullptr); }
+  RunUnderLauncher(const RunUnderLauncher&) = delete;
+  RunUnderLauncher& operator=(const RunUnderLauncher&) = delete;
+
+  static void end_soon(int number) {
+    catch_signal(number);
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (run_ != nullptr) run_->leave_start(exit_signal + number);
+  }
+
+ private:
+  static void set(BagRun* run) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    run_ = run;
+  }
+
+  static inline std::mutex mutex_;
+  static inline BagRun* run_ = nullptr;
+};
+
 int run(const RunOptions& options, parallel::Ranks* ranks) {
   std::optional<EndingSignals> signals;
   if (ranks == nullptr) signals.emplace(catch_signal);
   BagRun bag_run(options, caught_signal, ranks);
+  std::optional<RunUnderLauncher> under_launcher;
+  if (ranks != nullptr) under_launcher.emplace(bag_run);
   switch (bag_run.run()) {
     case BagRun::Outcome::done:
       return 0;
@@ -106,7 +136,7 @@ int program(int argc, char** argv, parallel::Ranks* ranks) {
 
 /// One of the processes that mpirun has started.
 int rank_program(int argc, char** argv) {
-  const EndingSignals signals(catch_signal);  // before MPI has threads
+  const EndingSignals signals(RunUnderLauncher::end_soon);  // before MPI has threads
   std::unique_ptr<parallel::Ranks> ranks;
   try {
     ranks = parallel::join_ranks();

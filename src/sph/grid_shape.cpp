@@ -18,6 +18,14 @@ double slots_of(const Discretisation& d, int rows, int slots) {
 
 }  // namespace
 
+std::size_t room_for(const Case& scene, const Layout& layout) {
+  if (scene.openings.empty()) return layout.particles.size();
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != 1 || scene.dimensions == 3) cells *= std::ceil((layout.domain.max[axis] - layout.domain.min[axis]) / layout.spacing);
+  return std::max(layout.particles.size(), static_cast<std::size_t>(std::min(cells, 1e9)));
+}
+
 GridShape grid_shape(const Discretisation& d, const Tiling& tiling, std::size_t particles) {
   int rows = tiling.rows_per_support, slots = tiling.slots_per_support;
   const double most = std::min(most_slots_per_particle * static_cast<double>(particles), std::numeric_limits<int>::max() / 4.0);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "tiling.h"
+#include "wavetank/geometry/layout.h"
+#include "wavetank/scene/case.h"
 #include "wavetank/sph/discretisation.h"
 
 namespace wavetank {
@@ -13,6 +15,9 @@ struct GridShape {
 
   int slots() const { return rows_y * rows_z * slots_x; }
 };
+
+/// Particles that there may be: where water comes in, as many as fill the tank.
+std::size_t room_for(const Case& settled_case, const Layout& layout);
 
 /// As fine as the tiling wants it, but no finer than memory allows: of a large tank with little water most slots are empty.
 GridShape grid_shape(const Discretisation& discretisation, const Tiling& tiling, std::size_t particles);

@@ -2,6 +2,7 @@
 
 #include <sched.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -100,6 +101,15 @@ std::vector<ImposedZone> zones_from(Unpacked& from) {
   return zones;
 }
 
+/// Of all these particles, in the order of their ids, the part and the place in it.
+std::vector<std::pair<std::size_t, std::size_t>> by_id(const std::vector<std::vector<std::uint32_t>>& ids) {
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  for (std::size_t part = 0; part < ids.size(); ++part)
+    for (std::size_t k = 0; k < ids[part].size(); ++k) order.emplace_back(part, k);
+  std::sort(order.begin(), order.end(), [&ids](const auto& a, const auto& b) { return ids[a.first][a.second] < ids[b.first][b.second]; });
+  return order;
+}
+
 /// Bodies are with the first part, and walls of all parts go with them.
 class TeamMover final : public WallMover {
  public:
@@ -153,6 +163,15 @@ class PartServerOf final : public PartServer {
       case PartOrder::advance:
         advance(from);
         return {};
+      case PartOrder::pack:
+        packing_ = solver_.pack(from.value<int>(), progress_);
+        return {};
+      case PartOrder::start:
+        report_ = solver_.start();
+        return {};
+      case PartOrder::settle:
+        report_ = solver_.settle(from.value<double>(), progress_);
+        return {};
       case PartOrder::walls:
         solver_.set_wall_motions(motions_from(from));
         return {};
@@ -164,6 +183,9 @@ class PartServerOf final : public PartServer {
         return {};
       case PartOrder::film:
         solver_.set_film(lumps_of(from.values<double>()));
+        return {};
+      case PartOrder::open:
+        solver_.open();
         return {};
       case PartOrder::save:
         return solver_.save();
@@ -192,6 +214,16 @@ class PartServerOf final : public PartServer {
       case PartOrder::energies:
         energies_ = solver_.energies();
         return {};
+      case PartOrder::download:
+        return packed(solver_.download());
+      case PartOrder::surface: {
+        const FluidSurface surface = solver_.find_surface();
+        return packed(solver_.download().id, surface);
+      }
+      case PartOrder::crowding:
+        return packed(solver_.crowding());
+      case PartOrder::pairs:
+        return Packed().value(solver_.count_pairs()).take();
       case PartOrder::memory:
         return Packed().value(solver_.device_memory()).take();
       case PartOrder::begin:
@@ -204,11 +236,18 @@ class PartServerOf final : public PartServer {
     return {solver_.digest() ^ walls_, info.describe(), info.name + " (" + info.platform_name + ", driver " + info.driver + ")",
             cores_here(), info.is_gpu ? 0 : static_cast<int>(info.compute_units)};
   }
+  Bytes laid_out_state(const Layout& layout) const override { return solver_.laid_out_state(layout); }
+  void check_state(const Bytes& state) const override { solver_.check_state(state); }
+  std::vector<std::int64_t> particles_in_blocks(const Bytes& state) const override { return solver_.particles_in_blocks(state); }
+  Bytes joined(const std::vector<Bytes>& parts) const override { return solver_.joined(parts); }
+  std::optional<ThinWall> thinnest_wall() const override { return solver_.thinnest_wall(); }
   const StepReport& report() const override { return report_; }
+  const PackingReport& packing() const override { return packing_; }
   double time_step() const override { return time_step_; }
   double imbalance() const override { return solver_.imbalance(); }
   std::size_t particles() const override { return solver_.particles_of_all(); }
   void lead(WallMover* mover) override { leading_ = mover; }
+  void tell(const std::function<void(double)>& progress) override { progress_ = progress; }
   const std::optional<WallMotions>& motions() const override { return motions_; }
   const std::vector<WallWrench>& wrenches() const override { return wrenches_; }
   const FluidEnergies& energies() const override { return energies_; }
@@ -262,6 +301,8 @@ class PartServerOf final : public PartServer {
   std::uint64_t walls_;
   SphSolver<Real> solver_;
   StepReport report_;
+  PackingReport packing_;
+  std::function<void(double)> progress_;
   double time_step_ = 0;
   std::vector<WallWrench> wrenches_;
   FluidEnergies energies_;
@@ -306,6 +347,80 @@ std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors) {
 
 parallel::Bytes packed(const FirstOrder& order) {
   return Packed().value(PartOrder::begin).value(order.parting).values(numbers_of(order.centres)).text(order.scene).take();
+}
+
+parallel::Bytes packed(const FluidState& fluid) {
+  Packed bytes;
+  bytes.values(fluid.id).values(numbers_of(fluid.position)).values(numbers_of(fluid.velocity));
+  return bytes.values(fluid.pressure).values(fluid.compression).values(fluid.mass).take();
+}
+
+FluidState fluid_state(const parallel::Bytes& bytes) {
+  Unpacked from(bytes);
+  FluidState fluid;
+  fluid.id = from.values<std::uint32_t>();
+  fluid.position = vectors_of(from.values<double>());
+  fluid.velocity = vectors_of(from.values<double>());
+  fluid.pressure = from.values<double>();
+  fluid.compression = from.values<double>();
+  fluid.mass = from.values<double>();
+  return fluid;
+}
+
+parallel::Bytes packed(const std::vector<std::uint32_t>& ids, const FluidSurface& surface) {
+  return Packed().values(ids).values(surface.shepard).values(surface.on_surface).values(surface.eigenvalue).take();
+}
+
+FluidSurface fluid_surface(const parallel::Bytes& bytes, std::vector<std::uint32_t>& ids) {
+  Unpacked from(bytes);
+  ids = from.values<std::uint32_t>();
+  FluidSurface surface;
+  surface.shepard = from.values<double>();
+  surface.on_surface = from.values<std::uint8_t>();
+  surface.eigenvalue = from.values<double>();
+  return surface;
+}
+
+parallel::Bytes packed(const Crowding& crowding) {
+  Packed bytes;
+  bytes.value(crowding.lost).value(crowding.whole).value(crowding.greatest).value(crowding.id);
+  return add(bytes, crowding.place).take();
+}
+
+Crowding crowding_of(const parallel::Bytes& bytes) {
+  Unpacked from(bytes);
+  Crowding crowding;
+  crowding.lost = from.value<std::int64_t>();
+  crowding.whole = from.value<std::int64_t>();
+  crowding.greatest = from.value<double>();
+  crowding.id = from.value<std::uint32_t>();
+  crowding.place = vector_from(from);
+  return crowding;
+}
+
+FluidState joined(const std::vector<FluidState>& parts) {
+  std::vector<std::vector<std::uint32_t>> ids;
+  for (const FluidState& part : parts) ids.push_back(part.id);
+  FluidState all;
+  for (const auto& [part, k] : by_id(ids)) {
+    all.id.push_back(parts[part].id[k]);
+    all.position.push_back(parts[part].position[k]);
+    all.velocity.push_back(parts[part].velocity[k]);
+    all.pressure.push_back(parts[part].pressure[k]);
+    all.compression.push_back(parts[part].compression[k]);
+    all.mass.push_back(parts[part].mass[k]);
+  }
+  return all;
+}
+
+FluidSurface joined(const std::vector<FluidSurface>& parts, const std::vector<std::vector<std::uint32_t>>& ids) {
+  FluidSurface all;
+  for (const auto& [part, k] : by_id(ids)) {
+    all.shepard.push_back(parts[part].shepard[k]);
+    all.on_surface.push_back(parts[part].on_surface[k]);
+    all.eigenvalue.push_back(parts[part].eigenvalue[k]);
+  }
+  return all;
 }
 
 Bytes let_in_order(const NewParticles& particles) {
@@ -393,8 +508,7 @@ void check_precision(const Case& scene, const compute::Device& device) {
 std::unique_ptr<PartServer> make_part_server(const compute::Device& device, const Parting& parting, const Case& scene, const Layout& layout,
                                              const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres) {
   Layout dry = layout;
-  dry.particles.clear();
-  dry.volumes.clear();
+  dry.particles.clear();  // the part is given its own
   SolverRows rows = rows_for(scene);
   rows.fields.insert(rows.fields.end(), part_fields().begin(), part_fields().end());
   rows.parameters.insert(rows.parameters.end(), part_parameters().begin(), part_parameters().end());

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "crowding.h"
 #include "parting.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/geometry/layout.h"
@@ -19,6 +21,9 @@ namespace wavetank {
 /// What the parts are asked to do, as the first byte of an order, and what comes after it.
 enum class PartOrder : char {
   begin,     ///< a part in another process: FirstOrder; replies with PartFacts
+  pack,      ///< so many iterations
+  start,     ///< the water as it lies
+  settle,    ///< periods
   advance,   ///< a step: whether walls move in it, and the owners whose wrenches move them
   walls,     ///< WallMotions, as they are now
   shorten,   ///< s, of the next step
@@ -27,8 +32,13 @@ enum class PartOrder : char {
   let_in,    ///< NewParticles at the end of the next step, of which each part takes its own
   drains,    ///< Drains
   zones,     ///< ImposedZones
+  open,      ///< particles may come and go
   save,      ///< replies with the state of the part's own particles
   cut,       ///< cuts, and a state of all the water, of which the part takes what is its
+  download,  ///< replies with the part's own particles
+  surface,   ///< replies with their ids, and what a sweep finds of them
+  crowding,  ///< replies with Crowding of them
+  pairs,     ///< replies with their PairCount
   memory,    ///< replies with the bytes on its device
   evaluate,  ///< numbers of sets of points to forget, one to evaluate, and if that is new what is wanted and where they are; replies with
              ///< which lie in the part, and the water there
@@ -55,6 +65,20 @@ struct PartFacts {
 parallel::Bytes packed(const PartFacts& facts);
 PartFacts part_facts(const parallel::Bytes& bytes);
 
+parallel::Bytes packed(const FluidState& fluid);
+FluidState fluid_state(const parallel::Bytes& bytes);
+
+parallel::Bytes packed(const Crowding& crowding);
+Crowding crowding_of(const parallel::Bytes& bytes);
+
+/// Of all parts' particles, in the order of their ids.
+FluidState joined(const std::vector<FluidState>& parts);
+/// `ids`: of each part's.
+FluidSurface joined(const std::vector<FluidSurface>& parts, const std::vector<std::vector<std::uint32_t>>& ids);
+
+parallel::Bytes packed(const std::vector<std::uint32_t>& ids, const FluidSurface& surface);
+FluidSurface fluid_surface(const parallel::Bytes& bytes, std::vector<std::uint32_t>& ids);
+
 parallel::Bytes let_in_order(const NewParticles& particles);
 parallel::Bytes drains_order(const std::vector<Drain>& drains);
 parallel::Bytes zones_order(const std::vector<ImposedZone>& zones);
@@ -70,8 +94,15 @@ class PartServer {
   virtual ~PartServer() = default;
   virtual parallel::Bytes obey(const parallel::Bytes& order) = 0;
   virtual PartFacts facts() const = 0;
-  /// Of the last step, the same of all parts.
+  // of states as SphSolver has them
+  virtual parallel::Bytes laid_out_state(const Layout& layout) const = 0;
+  virtual void check_state(const parallel::Bytes& state) const = 0;
+  virtual std::vector<std::int64_t> particles_in_blocks(const parallel::Bytes& state) const = 0;
+  virtual parallel::Bytes joined(const std::vector<parallel::Bytes>& parts) const = 0;
+  virtual std::optional<ThinWall> thinnest_wall() const = 0;
+  /// Of the last step, or the start, the same of all parts.
   virtual const StepReport& report() const = 0;
+  virtual const PackingReport& packing() const = 0;
   /// Of the next step, s, after an order to shorten it.
   virtual double time_step() const = 0;
   /// As SphSolver has it.
@@ -80,6 +111,8 @@ class PartServer {
   virtual std::size_t particles() const = 0;
   /// Of the part that has bodies: who moves them in the next step.
   virtual void lead(WallMover* mover) = 0;
+  /// Of one part: whom it tells how far packing and settling are.
+  virtual void tell(const std::function<void(double fraction)>& progress) = 0;
   /// As they were asked for last, the same of all parts.
   virtual const std::vector<WallWrench>& wrenches() const = 0;
   virtual const FluidEnergies& energies() const = 0;

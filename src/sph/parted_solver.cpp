@@ -56,7 +56,7 @@ void tell_of_cores(const parallel::Team& team, const std::vector<PartFacts>& par
   }
 }
 
-/// Points that the parts know by a number, each those that lie in it; and the solver of all the water, once it is asked.
+/// Points that the parts know by a number, each those that lie in it.
 class PointsOfAll final : public PointSet {
  public:
   /// `dropped`: to which its number is added when it is gone.
@@ -68,15 +68,7 @@ class PointsOfAll final : public PointSet {
 
   void set(const std::vector<Eigen::Vector3d>& points) override {
     places = points;
-    told = of_whole_is_new_ = false;
-  }
-  const PointSet& of(const Solver& whole) const {
-    if (!of_whole_)
-      of_whole_ = whole.make_points(places, wanted);
-    else if (!of_whole_is_new_)
-      of_whole_->set(places);
-    of_whole_is_new_ = true;
-    return *of_whole_;
+    told = false;
   }
 
   int number;
@@ -85,12 +77,34 @@ class PointsOfAll final : public PointSet {
   mutable bool told = false;  ///< to the parts
 
  private:
-  mutable std::unique_ptr<PointSet> of_whole_;
-  mutable bool of_whole_is_new_ = false;
   std::shared_ptr<std::vector<int>> dropped_;
 };
 
-template <class Real>
+/// How the water of a case is cut into parts on devices of this kind.
+Parting parting_for(const Case& scene, const Layout& layout, const Discretisation& d, const compute::DeviceInfo& device,
+                    const PartedSolverOptions& options) {
+  Parting parting;
+  parting.axis = axis_of_parts(d);
+  parting.given = layout.particles.size();
+  parting.room = room_for(scene, layout);
+  const bool ghosts = scene.numerics.walls.method == WallMethod::ghost;
+  const GridShape grid = grid_shape(d, tiling_for(device, scene.numerics.precision, ghosts), parting.room);
+  const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
+  parting.segment = slots_of_segment(d, grid);
+  parting.block = parting.axis == 0 ? parting.segment : 1;  // no tile has particles of two rows
+  parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
+  parting.periodic = scene.tank.periodic[parting.axis];
+  // through the pressure of a wall's element others act from twice the support; a particle drifts, and so do those that it looks for; and
+  // there are places beyond the end of a periodic tank, where nobody is
+  const double reach = (kind_of(scene.numerics.walls) == WallKind::facets ? 1 : 2) * d.support;
+  const double drift = greatest_drift(schedule_of(scene, nullptr), scene, d);
+  const double empty = parting.periodic ? parting.places * place - (d.tank.max[parting.axis] - d.tank.min[parting.axis]) : 0;
+  parting.halo = static_cast<int>(std::floor((reach + 2 * drift + std::max(empty, 0.0)) * (1 + 1e-4) / place)) + 1 - options.halo_less;
+  parting.way = static_cast<int>(std::ceil(2 * drift / place));
+  parting.spoils = options.spoils;
+  return parting;
+}
+
 class PartedSolver final : public Solver {
  public:
   /// Parts in this process, one a device.
@@ -99,26 +113,25 @@ class PartedSolver final : public Solver {
       : options_(options),
         threads_(std::make_unique<parallel::ThreadGroup>(static_cast<int>(devices.size()), options.takes_turns || need_turns(devices))),
         team_(*threads_),
-        whole_(rows_for(scene), devices[0], scene, layout, discretisation, centres),
+        discretisation_(discretisation),
         is_open_(!layout.openings.empty()),
-        parting_(parting_for(scene, discretisation)) {
+        parting_(parting_for(scene, layout, discretisation, devices[0].info(), options)) {
     for (int rank = 0; rank < team_.size(); ++rank) {
       add_part(rank, devices[rank], scene, layout, discretisation, centres);
       threads_->at_end_of_turn(rank, [device = devices[rank]] { device.finish(); });
       devices[rank].finish();  // before another's kernels are loaded
     }
     check_devices();
-    check_room();
+    begin(layout);
   }
 
   /// One in each process.
   PartedSolver(parallel::Team& team, const compute::Device& device, const std::string& scene_text, const Case& scene, const Layout& layout,
                const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : team_(team),
-        whole_(rows_for(scene), device, scene, layout, discretisation, centres),
+        discretisation_(discretisation),
         is_open_(!layout.openings.empty()),
-        parting_(parting_for(scene, discretisation)) {
-    check_room();
+        parting_(parting_for(scene, layout, discretisation, device.info(), options_)) {
     const std::vector<Bytes> replies = team_.ask(packed(FirstOrder{parting_, centres, scene_text}), [&](int rank, const Bytes&) {
       add_part(rank, device, scene, layout, discretisation, centres);
       return packed(parts_.back()->facts());
@@ -133,24 +146,25 @@ class PartedSolver final : public Solver {
             "names.");
     tell_of_kinds(team_, facts);
     tell_of_cores(team_, facts);
+    begin(layout);
   }
 
-  PackingReport pack(int iterations, const std::function<void(double)>& progress) override { return changed().pack(iterations, progress); }
+  PackingReport pack(int iterations, const std::function<void(double)>& progress) override {
+    prepare(Packed().value(PartOrder::pack).value(iterations), progress);
+    return parts_[0]->packing();
+  }
   StepReport start() override {
-    const StepReport report = changed().start();
-    has_started_ = true;
-    return report;
+    prepare(Packed().value(PartOrder::start), {});
+    return parts_[0]->report();
   }
   StepReport settle(double periods, const std::function<void(double)>& progress) override {
-    const StepReport report = changed().settle(periods, progress);
-    has_started_ = true;
-    return report;
+    prepare(Packed().value(PartOrder::settle).value(periods), progress);
+    return parts_[0]->report();
   }
 
   StepReport advance(WallMover* mover) override {
-    if (stale_parts_ || is_time_to_cut()) cut();
+    if (is_time_to_cut()) cut();
     for (const Bytes& order : std::exchange(coming_, {})) ask(order);
-    stale_whole_ = true;
     parts_[0]->lead(mover);
     const std::vector<int> coupled = mover != nullptr ? mover->coupled() : std::vector<int>();
     ask(Packed().value(PartOrder::advance).value<char>(mover != nullptr ? 1 : 0).values(coupled));
@@ -161,12 +175,10 @@ class PartedSolver final : public Solver {
   }
 
   void set_wall_motions(const WallMotions& motions) override {
-    whole_.set_wall_motions(motions);
     motions_ = motions;
     tell_motions();
   }
   void set_film(const std::vector<FilmLump>& lumps) override {
-    whole_.set_film(lumps);
     std::vector<double> numbers;
     for (const FilmLump& lump : lumps)
       numbers.insert(numbers.end(), {lump.place.x(), lump.place.y(), lump.place.z(), lump.volume, lump.pressure});
@@ -174,38 +186,26 @@ class PartedSolver final : public Solver {
     film_ = numbers;
     ask(Packed().value(PartOrder::film).values(numbers));
   }
-  void limit_time_step(double limit) override {
-    whole_.limit_time_step(limit);
-    ask(Packed().value(PartOrder::limit).value(limit));
-  }
+  void limit_time_step(double limit) override { ask(Packed().value(PartOrder::limit).value(limit)); }
   double shorten_step(double longest) override {
-    if (!stale_whole_) whole_.shorten_step(longest);  // of which the water may be cut anew before that step
-    if (stale_parts_) return whole_.time_step();
     ask(Packed().value(PartOrder::shorten).value(longest));
     return parts_[0]->time_step();
   }
-  std::size_t particle_count() const override { return stale_whole_ ? parts_[0]->particles() : whole_.particle_count(); }
+  std::size_t particle_count() const override { return parts_[0]->particles(); }
   PartsState parts() const override { return {team_.size(), steps_since_cut_ > 0 ? parts_[0]->imbalance() : 1.0, cuts_}; }
   void let_in(const NewParticles& particles) override {
     check_new_particles(particles);
-    whole_.open();
+    if (!std::exchange(is_told_to_be_open_, true)) ask(PartOrder::open);
     coming_.push_back(let_in_order(particles));
   }
-  void set_drains(const std::vector<Drain>& drains) override {
-    whole_.set_drains(drains);
-    ask(drains_order(drains));
-  }
-  void set_zones(const std::vector<ImposedZone>& zones) override {
-    whole_.set_zones(zones);
-    ask(zones_order(zones));
-  }
-  std::optional<ThinWall> thinnest_wall() const override { return whole_.thinnest_wall(); }
+  void set_drains(const std::vector<Drain>& drains) override { ask(drains_order(drains)); }
+  void set_zones(const std::vector<ImposedZone>& zones) override { ask(zones_order(zones)); }
+  std::optional<ThinWall> thinnest_wall() const override { return parts_[0]->thinnest_wall(); }
   std::unique_ptr<PointSet> make_points(const std::vector<Eigen::Vector3d>& points, PointValues wanted) const override {
     return std::make_unique<PointsOfAll>(next_points_++, points, wanted, dropped_points_);
   }
   std::vector<PointValue> evaluate(const PointSet& set) override {
     const auto& points = dynamic_cast<const PointsOfAll&>(set);
-    if (!parts_have_it()) return whole_.evaluate(points.of(whole_));
     Packed order;
     order.value(PartOrder::evaluate).values(std::exchange(*dropped_points_, {})).value(points.number).value(!points.told);
     if (!std::exchange(points.told, true)) order.value(points.wanted).values(numbers_of(points.places));
@@ -222,31 +222,48 @@ class PartedSolver final : public Solver {
     return values;
   }
   std::vector<WallWrench> wrenches() override {
-    if (!parts_have_it()) return whole_.wrenches();
     ask(PartOrder::wrenches);
     return parts_[0]->wrenches();
   }
   FluidEnergies energies() override {
-    if (!parts_have_it()) return whole_.energies();
     ask(PartOrder::energies);
     return parts_[0]->energies();
   }
-  LostVolume lost_volume() override { return whole().lost_volume(); }
-  FluidState download() override { return whole().download(); }
-  FluidSurface find_surface() override { return whole().find_surface(); }
-  PairCount count_pairs() override { return whole().count_pairs(); }
-  std::vector<char> save() const override { return whole().save(); }
+  LostVolume lost_volume() override {
+    Crowding all;
+    for (const Bytes& reply : ask(PartOrder::crowding)) all.add(crowding_of(reply));
+    return all.volume(discretisation_);
+  }
+  FluidState download() override {
+    std::vector<FluidState> parts;
+    for (const Bytes& reply : ask(PartOrder::download)) parts.push_back(fluid_state(reply));
+    return joined(parts);
+  }
+  FluidSurface find_surface() override {
+    std::vector<FluidSurface> parts;
+    std::vector<std::vector<std::uint32_t>> ids;
+    for (const Bytes& reply : ask(PartOrder::surface)) parts.push_back(fluid_surface(reply, ids.emplace_back()));
+    return joined(parts, ids);
+  }
+  PairCount count_pairs() override {
+    PairCount all;
+    for (const Bytes& reply : ask(PartOrder::pairs)) {
+      const auto own = Unpacked(reply).value<PairCount>();
+      all.pairs += own.pairs;
+      all.candidates += own.candidates;
+    }
+    return all;
+  }
+  std::vector<char> save() const override { return parts_[0]->joined(ask(PartOrder::save)); }
   void restore(const std::vector<char>& bytes) override {
-    whole_.restore(bytes);
-    stale_whole_ = false;
-    stale_parts_ = true;
-    has_started_ = true;
+    parts_[0]->check_state(bytes);
+    motions_.reset();  // they are of another time, and told anew by whom that concerns
     coming_.clear();
+    cut(bytes, cuts_for(bytes));
   }
   std::size_t device_memory() const override {
-    const std::vector<Bytes> replies = ask(PartOrder::memory);
-    std::size_t bytes = whole_.device_memory();  // with that of the first part, on the same device
-    for (std::size_t rank = 1; rank < replies.size(); ++rank) bytes += Unpacked(replies[rank]).value<std::size_t>();
+    std::size_t bytes = 0;
+    for (const Bytes& reply : ask(PartOrder::memory)) bytes += Unpacked(reply).value<std::size_t>();
     return bytes;
   }
 
@@ -258,29 +275,24 @@ class PartedSolver final : public Solver {
     parts_.push_back(make_part_server(device, parting, scene, layout, discretisation, centres));
   }
 
+  /// The parts are given the water as it is laid out.
+  void begin(const Layout& layout) {
+    const Bytes state = parts_[0]->laid_out_state(layout);
+    cut(state, cuts_for(state));
+  }
+
   std::vector<Bytes> ask(const Bytes& order) const {
-    if (threads_) whole_.finish();  // whose device a part may have too
     return team_.ask(order, [this](int rank, const Bytes& given) { return parts_.at(rank)->obey(given); });
   }
   std::vector<Bytes> ask(Packed& order) const { return ask(order.take()); }
   std::vector<Bytes> ask(PartOrder order) const { return ask(Packed().value(order)); }
 
-  Parting parting_for(const Case& scene, const Discretisation& d) {
-    Parting parting;
-    parting.axis = axis_of_parts(d);
-    const GridShape& grid = whole_.grid();
-    const double place = place_ = parting.axis == 0 ? grid.slot_length : grid.row_side;
-    parting.segment = slots_of_segment(d, grid);
-    parting.block = parting.axis == 0 ? parting.segment : 1;  // no tile has particles of two rows
-    parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
-    parting.periodic = scene.tank.periodic[parting.axis];
-    // a particle's drift, and that of those it looks for; and places beyond the end of a periodic tank, where nobody is
-    const double empty = parting.periodic ? parting.places * place - (d.tank.max[parting.axis] - d.tank.min[parting.axis]) : 0;
-    const double reach = whole_.greatest_reach() + 2 * whole_.greatest_drift() + std::max(empty, 0.0);
-    parting.halo = static_cast<int>(std::floor(reach * (1 + 1e-4) / place)) + 1 - options_.halo_less;
-    parting.room = whole_.room();
-    parting.spoils = options_.spoils;
-    return parting;
+  /// What comes before the first step.
+  void prepare(Packed& order, const std::function<void(double)>& progress) {
+    if (!coming_.empty()) throw Error("a case was to be started, settled or packed when particles had come in already");
+    parts_[0]->tell(progress);
+    ask(order);
+    parts_[0]->tell({});
   }
 
   /// The parts know them from the steps that they make; what is restored has them told.
@@ -294,7 +306,7 @@ class PartedSolver final : public Solver {
   /// Of blocks, the least that a part may have: halos are of the parts beside it, and none may be in that of the one beyond when it comes
   /// into it.
   int least_blocks() const {
-    const int way = team_.size() > 2 ? static_cast<int>(std::ceil(2 * whole_.greatest_drift() / place_)) : 0;
+    const int way = team_.size() > 2 ? parting_.way : 0;
     return (parting_.halo + options_.halo_less + way + parting_.block - 1) / parting_.block;
   }
 
@@ -309,9 +321,8 @@ class PartedSolver final : public Solver {
   }
 
   /// Throws if the water is too short for so many parts.
-  void check_room() { cuts_for(whole_.particles_in_blocks(parting_)); }
-
-  std::vector<int> cuts_for(std::vector<std::int64_t> weights) const {
+  std::vector<int> cuts_for(const Bytes& state) const {
+    std::vector<std::int64_t> weights = parts_[0]->particles_in_blocks(state);
     // where water comes in, there may be none yet: empty blocks count for something
     for (std::int64_t& weight : weights) weight = is_open_ ? 1000 * weight + 1 : weight;
     std::vector<int> cuts = parallel::cut_into_slabs(weights, team_.size(), least_blocks());
@@ -319,42 +330,21 @@ class PartedSolver final : public Solver {
     return cuts;
   }
 
-  /// All the water, as the parts have it by now.
-  SphSolver<Real>& whole() const {
-    if (!stale_whole_) return whole_;
-    whole_.restore(whole_.joined(ask(PartOrder::save)));
-    if (motions_) whole_.set_wall_motions(*motions_);
-    stale_whole_ = false;
-    return whole_;
-  }
-  /// It is about to change.
-  SphSolver<Real>& changed() {
-    if (!coming_.empty()) throw Error("a case was to be started, settled or packed when particles had come in already");
-    SphSolver<Real>& all = whole();
-    stale_parts_ = true;
-    return all;
-  }
-
-  /// So that they read it, as they do between steps, or after a start or a restore: other sums in another order have other last bits.
-  bool parts_have_it() {
-    if (stale_parts_ && has_started_) cut();
-    return !stale_parts_;
-  }
-
+  /// The water as it is, anew.
   void cut() {
-    SphSolver<Real>& all = whole();
-    const std::vector<std::int64_t> weights = all.particles_in_blocks(parting_);
+    const Bytes state = save();
     std::vector<int> cuts;
     try {
-      cuts = cuts_for(weights);
-    } catch (const Error&) {  // the water has drawn together: those that there are do still
-      if (stale_parts_) throw;
+      cuts = cuts_for(state);
+    } catch (const Error&) {  // it has drawn together: the cuts that there are do still
       lost_steps_ = 0;
       return;
     }
-    ask(Packed().value(PartOrder::cut).values(cuts).values(all.save()));
+    cut(state, cuts);
+  }
+  void cut(const Bytes& state, const std::vector<int>& cuts) {
+    ask(Packed().value(PartOrder::cut).values(cuts).values(state));
     tell_motions();
-    stale_parts_ = false;
     ++cuts_;
     steps_since_cut_ = 0;
     lost_steps_ = 0;
@@ -374,19 +364,16 @@ class PartedSolver final : public Solver {
   PartedSolverOptions options_;
   std::unique_ptr<parallel::ThreadGroup> threads_;  ///< of parts in this process
   parallel::Team& team_;
-  mutable SphSolver<Real> whole_;
-  bool is_open_;      ///< water may come in
-  double place_ = 0;  ///< m, of a place along the axis of the parts
+  Discretisation discretisation_;
+  bool is_open_;  ///< water may come in
   Parting parting_;
   std::vector<std::unique_ptr<PartServer>> parts_;  ///< those in this process, from the first on
   std::vector<Bytes> coming_;                       ///< orders to let particles in
+  bool is_told_to_be_open_ = false;                 ///< the parts
   std::vector<double> film_;                        ///< that the parts know of
   mutable int next_points_ = 0;
   std::shared_ptr<std::vector<int>> dropped_points_ = std::make_shared<std::vector<int>>();  ///< that parts may still have
   std::optional<WallMotions> motions_;                                                       ///< of walls that have moved, now
-  mutable bool stale_whole_ = false;
-  bool stale_parts_ = true;
-  bool has_started_ = false;  ///< or was restored: before that there is nothing that parts could have
   int steps_since_cut_ = 0;
   std::uint64_t cuts_ = 0;
   double lost_steps_ = 0, load_when_cut_ = 1;
@@ -398,18 +385,14 @@ std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& d
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
                                            const PartedSolverOptions& options) {
   for (const compute::Device& device : devices) check_precision(scene, device);
-  if (scene.numerics.precision == Precision::single)
-    return std::make_unique<PartedSolver<float>>(devices, scene, layout, discretisation, centres, options);
-  return std::make_unique<PartedSolver<double>>(devices, scene, layout, discretisation, centres, options);
+  return std::make_unique<PartedSolver>(devices, scene, layout, discretisation, centres, options);
 }
 
 std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
                                            const Case& scene, const Layout& layout, const Discretisation& discretisation,
                                            const std::vector<Eigen::Vector3d>& centres) {
   check_precision(scene, device);
-  if (scene.numerics.precision == Precision::single)
-    return std::make_unique<PartedSolver<float>>(team, device, scene_text, scene, layout, discretisation, centres);
-  return std::make_unique<PartedSolver<double>>(team, device, scene_text, scene, layout, discretisation, centres);
+  return std::make_unique<PartedSolver>(team, device, scene_text, scene, layout, discretisation, centres);
 }
 
 }  // namespace wavetank

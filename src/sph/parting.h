@@ -19,10 +19,12 @@ struct Parting {
   parallel::Group* group = nullptr;  ///< the part and those beside it; the rest is the same for all
   int axis = 0;                      ///< across which the water is cut
   int halo = 0;                      ///< places beside its own of which a part has the particles of others
+  int way = 0;                       ///< places that a particle goes, at the most, before its neighbours are gone over
   int block = 0;                     ///< places; cuts lie between blocks, of which the last may be longer
   int segment = 0;                   ///< slots, of which tiles have particles together
   int places = 0;                    ///< in all
-  std::size_t room = 0;              ///< for particles in all parts together, by which the grid is as fine as it is
+  std::size_t given = 0;             ///< particles of all parts together at the start
+  std::size_t room = 0;              ///< for those that there may be, by which the grid is as fine as it is
   bool periodic = false;             ///< the tank is so along the axis: beyond its last place the first follows
   bool spoils = false;               ///< for tests: what others have not sent yet is not a number
 

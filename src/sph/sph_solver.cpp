@@ -13,15 +13,6 @@
 namespace wavetank {
 namespace {
 
-/// Particles that there may be: where water comes in, as many as fill the tank.
-std::size_t room_for(const Case& scene, const Layout& layout) {
-  if (scene.openings.empty()) return layout.particles.size();
-  double cells = 1;
-  for (int axis = 0; axis < 3; ++axis)
-    if (axis != 1 || scene.dimensions == 3) cells *= std::ceil((layout.domain.max[axis] - layout.domain.min[axis]) / layout.spacing);
-  return std::max(layout.particles.size(), static_cast<std::size_t>(std::min(cells, 1e9)));
-}
-
 /// As field::motion_friction has them: the law, and its roughness or coefficient.
 std::array<double, 2> friction_values(const FrictionCase& friction) {
   switch (friction.law) {
@@ -43,17 +34,9 @@ bool moves(const WallMotion& motion) {
            motion.angular_acceleration.isZero(0) && motion.surface_velocity.isZero(0));
 }
 
-/// How far a particle may be from where it was sorted when wrenches are found, m: a step is courant h/c₀ at the most, and at half the speed
-/// of sound the watchdog ends the run.
+/// How far a particle may be from where it was sorted when wrenches are found, m.
 double farthest_drift(const Schedule& schedule, const Case& scene, const Discretisation& d) {
-  const double shift = scene.numerics.shifting == Shifting::none ? 0 : field::shift_most * d.spacing;
-  const double way = 0.5 * scene.numerics.courant * d.smoothing_length + shift;
-  return std::max(0.25 * d.spacing, schedule.drift() * way);
-}
-
-/// Of the grid by which walls are found, the border's too.
-std::size_t cells_of(const Discretisation& d) {
-  return static_cast<std::size_t>(d.cells[0]) * static_cast<std::size_t>(d.cells[1]) * static_cast<std::size_t>(d.cells[2]);
+  return std::max(0.25 * d.spacing, greatest_drift(schedule, scene, d));
 }
 
 /// Of the force on a particle of the water, N, whose pressure is that of the speed of sound.
@@ -104,9 +87,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       case_(scene),
       discretisation_(discretisation),
       count_(static_cast<int>(layout.particles.size())),
-      given_(count_),
+      given_(rows.parting ? static_cast<int>(rows.parting->given) : count_),
       room_(rows.parting ? rows.parting->room : room_for(scene, layout)),
-      next_id_(count_),
+      next_id_(given_),
       stride_(stride_for(count_)),
       chunks_(chunks_of(count_)),
       groups_(chunks_of(chunks_)),
@@ -151,6 +134,9 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       energy_parts_(device, static_cast<std::size_t>(energy_rows_) * energy_pieces_ * exact_places(field::energy_count)),
       energy_quanta_(quanta_of_energies(scene, discretisation)),
       energy_quanta_on_device_(device, std::vector<Real>(energy_quanta_.begin(), energy_quanta_.end())) {
+  up_ = layout.up;
+  levels_ = layout.levels;
+  volumes_ = layout.volumes;
   moving_.resize(centres.size(), false);
   const bool owners_move = std::find(moving_.begin(), moving_.end(), true) != moving_.end();
   if (scene.numerics.gradients != Gradients::sph) check_walls_of_least_squares(scene, layout, thinnest_wall().has_value());
@@ -239,9 +225,6 @@ void SphSolver<Real>::upload_particles(const Layout& layout) {
     mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
     volume[i] = static_cast<Real>(layout.volumes[i]);
   }
-  up_ = layout.up;
-  levels_ = layout.levels;
-  volumes_ = layout.volumes;
   state_.upload(state);
   id_.upload(id);
   kernels_.derive.launch(count_);

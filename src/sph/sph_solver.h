@@ -8,6 +8,7 @@
 #include "bound_kernels.h"
 #include "build_options.h"
 #include "case_walls.h"
+#include "crowding.h"
 #include "damping_zones.h"
 #include "drains.h"
 #include "exact_sums.h"
@@ -55,36 +56,31 @@ class SphSolver final : public Solver, private StepEngine {
   std::vector<PointValue> evaluate(const PointSet& points) override;
   std::vector<WallWrench> wrenches() override;
   FluidEnergies energies() override;
-  LostVolume lost_volume() override;
+  LostVolume lost_volume() override { return crowding().volume(discretisation_); }
   FluidState download() override;
   FluidSurface find_surface() override;
   PairCount count_pairs() override;
+  Crowding crowding();
   std::vector<char> save() const override;
   void restore(const std::vector<char>& bytes) override;
   std::size_t device_memory() const override { return device_.allocated(); }
 
-  // of water in parts, whose solvers know their Parting
-  const GridShape& grid() const { return grid_shape_; }
-  /// From how far others' state acts on a particle's rates within a step, m: through the pressure of a wall's element, from twice the
-  /// support.
-  double greatest_reach() const { return (elements_ ? 2 : 1) * discretisation_.support; }
-  /// How far a particle, at the most, is from where it was sorted when its neighbours are gone over, m.
-  double greatest_drift() const;
-  /// Particles by blocks of so many places along an axis, as Parting has them.
-  std::vector<std::int64_t> particles_in_blocks(const Parting& parting) const;
+  // of a part of the water, whose solver knows its Parting: what it reads is of its own particles
+  /// As save() has it, of all the water as it is laid out.
+  std::vector<char> laid_out_state(const Layout& layout) const;
+  /// Throws Error as restore() does.
+  void check_state(const std::vector<char>& bytes) const { read_state(bytes); }
+  /// Of a state, its particles by the blocks that Parting has.
+  std::vector<std::int64_t> particles_in_blocks(const std::vector<char>& bytes) const;
   /// The next restore() takes of a state of all the water what lies between these cuts, and the halo.
   void set_cuts(const std::vector<int>& cuts);
   /// What the parts have saved of their own particles, as one would save it that had them all.
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
   /// Of all the water, wherever it is cut.
-  std::size_t particles_of_all() const { return static_cast<std::size_t>(part_ ? part_->all : count_); }
+  std::size_t particles_of_all() const { return static_cast<std::size_t>(part_->all); }
   double time_step() const { return step_; }
   /// Particles may come and go: snapshots of any number of them are taken.
   void open() { open_ = true; }
-  /// Waits for all that its device has still to do.
-  void finish() const { device_.finish(); }
-  /// Particles that there may be.
-  std::size_t room() const { return room_; }
   /// Particles of the part that has the most, over those of the mean; after a step the same on all parts.
   double imbalance() const;
   /// Which of these points lie where the part has its own particles: every point does in one part.
@@ -119,12 +115,15 @@ class SphSolver final : public Solver, private StepEngine {
   void check_nobody_came() const;
   /// All stay in the water, wherever drains are.
   void sort_all();
+  /// Without the other parts, which all have what they need.
+  void sort_all_alone();
+  /// Those of a downloaded state that are no part's halo, in their order.
+  std::vector<int> own_particles(const std::vector<Real>& state) const;
   std::vector<int> order_by_id(const std::vector<std::uint32_t>& id) const;
   /// As Parting counts them, of coordinates along its axis.
-  std::vector<int> places_in_parts(const Parting& parting, const std::vector<Real>& coordinates) const;
+  std::vector<int> places_in_parts(const std::vector<Real>& coordinates) const;
   /// Which of these the part has, as its own or in its halo.
   std::vector<int> in_part(const std::vector<Real>& coordinates) const;
-  /// Without the other parts, which all have what they need.
   void sort_alone();
   enum class SavedArray { state, rates, gradients, surroundings };
   struct SavedComponent {
@@ -133,7 +132,18 @@ class SphSolver final : public Solver, private StepEngine {
     std::size_t place;  ///< in the array
   };
   std::vector<SavedComponent> saved_components(bool gradients) const;
-  void find_own_gradients();
+  /// A snapshot as it was read.
+  struct ReadState {
+    std::vector<std::uint32_t> id;
+    std::int64_t next_id = 0;
+    bool with_gradients = false;
+    std::vector<SavedComponent> components;
+    std::vector<std::vector<Real>> values;  ///< of each, by particle
+    std::vector<double> step, listed, impulses;
+  };
+  ReadState read_state(const std::vector<char>& bytes) const;
+  /// Leaves what is no part's.
+  void keep_own(ReadState& read) const;
   void upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id);
   int gradient_count() const { return static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_)); }
   compute::Arguments arguments() const;
@@ -153,6 +163,9 @@ class SphSolver final : public Solver, private StepEngine {
   void refresh(const char* name);
   void spoil(const char* name);
   void sort_part();
+  double sum_of_parts(double own) const;
+  /// Root mean square of h|E|, of all parts.
+  double packing_error();
   StepReport watch_parts(const std::vector<Real>& values, const std::vector<int>& counted);
   void bind(const DevicePoints& points) const;
 

@@ -250,7 +250,8 @@ StepReport SphSolver<Real>::watch_parts(const std::vector<Real>& values, const s
 }
 
 template <class Real>
-std::vector<int> SphSolver<Real>::places_in_parts(const Parting& parting, const std::vector<Real>& coordinates) const {
+std::vector<int> SphSolver<Real>::places_in_parts(const std::vector<Real>& coordinates) const {
+  const Parting& parting = part_->parting();
   const Real inverse = static_cast<Real>(values_->at(parting.axis == 0 ? "inverse_slot" : "inverse_row"));
   std::vector<int> places;
   places.reserve(coordinates.size());
@@ -263,7 +264,7 @@ std::vector<int> SphSolver<Real>::places_in_parts(const Parting& parting, const 
 
 template <class Real>
 std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>& coordinates) const {
-  const std::vector<int> places = places_in_parts(part_->parting(), coordinates);
+  const std::vector<int> places = places_in_parts(coordinates);
   const std::vector<char> has = places_had(*values_, part_->parting());
   std::vector<int> found;
   for (std::size_t k = 0; k < places.size(); ++k)
@@ -276,22 +277,12 @@ std::vector<int> SphSolver<Real>::own_points(const std::vector<Eigen::Vector3d>&
   const int axis = part_->parting().axis;
   std::vector<Real> coordinates;
   for (const Eigen::Vector3d& point : points) coordinates.push_back(static_cast<Real>(point[axis] - discretisation_.origin[axis]));
-  const std::vector<int> places = places_in_parts(part_->parting(), coordinates);
+  const std::vector<int> places = places_in_parts(coordinates);
   const double begin = values_->at("own_begin"), end = values_->at("own_end");
   std::vector<int> found;
   for (std::size_t k = 0; k < places.size(); ++k)
     if (places[k] >= begin && places[k] < end) found.push_back(static_cast<int>(k));
   return found;
-}
-
-template <class Real>
-std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting& parting) const {
-  std::vector<std::int64_t> counts(parting.blocks(), 0);
-  const std::vector<Real> state = state_.download();
-  const Real* const first = component(state, parting.axis == 0 ? "x" : parting.axis == 1 ? "y" : "z");
-  for (const int place : places_in_parts(parting, std::vector<Real>(first, first + count_)))
-    ++counts[std::min((place - 1) / parting.block, parting.blocks() - 1)];
-  return counts;
 }
 
 template <class Real>
@@ -301,10 +292,15 @@ void SphSolver<Real>::set_cuts(const std::vector<int>& cuts) {
   wrenches_.set_part(part_->parting(), static_cast<int>(values_->at("own_begin")), static_cast<int>(values_->at("own_end")));
 }
 
+/// In the order of their ranks: its last bits depend on where they are cut.
 template <class Real>
-double SphSolver<Real>::greatest_drift() const {
-  const double shift = shifts() ? field::shift_most * discretisation_.spacing : 0;
-  return schedule_.drift() * (0.5 * case_.numerics.courant * discretisation_.smoothing_length + shift);
+double SphSolver<Real>::sum_of_parts(double own) const {
+  parallel::Group& group = *part_->parting().group;
+  std::vector<std::int64_t> all(group.size(), 0);
+  all[group.rank()] = bits_of(own);
+  double sum = 0;
+  for (const std::int64_t bits : group.sums(all)) sum += value_of(bits);
+  return sum;
 }
 
 template <class Real>
@@ -338,9 +334,9 @@ std::uint64_t SphSolver<Real>::digest() const {
   template StepReport SphSolver<Real>::watch_parts(const std::vector<Real>&, const std::vector<int>&); \
   template std::vector<int> SphSolver<Real>::in_part(const std::vector<Real>&) const;                  \
   template std::vector<int> SphSolver<Real>::own_points(const std::vector<Eigen::Vector3d>&) const;    \
-  template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const Parting&) const;       \
+  template std::vector<int> SphSolver<Real>::places_in_parts(const std::vector<Real>&) const;          \
   template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
-  template double SphSolver<Real>::greatest_drift() const;                                             \
+  template double SphSolver<Real>::sum_of_parts(double) const;                                         \
   template double SphSolver<Real>::imbalance() const;                                                  \
   template std::uint64_t SphSolver<Real>::digest() const;
 WAVETANK_PARTS(float)

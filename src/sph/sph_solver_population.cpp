@@ -89,10 +89,18 @@ void SphSolver<Real>::check_nobody_came() const {
 template <class Real>
 void SphSolver<Real>::sort_all() {
   drains_.close(true);
-  if (part_)
-    sort_alone();
-  else
-    sort();
+  sort();
+  drains_.close(false);
+}
+
+template <class Real>
+void SphSolver<Real>::sort_all_alone() {
+  if (!part_) {
+    sort_all();
+    return;
+  }
+  drains_.close(true);
+  sort_alone();
   drains_.close(false);
 }
 
@@ -181,6 +189,7 @@ void SphSolver<Real>::add_waiting() {
   template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&); \
   template void SphSolver<Real>::check_nobody_came() const;                  \
   template void SphSolver<Real>::sort_all();                                 \
+  template void SphSolver<Real>::sort_all_alone();                           \
   template void SphSolver<Real>::add_waiting();
 WAVETANK_POPULATION(float)
 WAVETANK_POPULATION(double)

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numeric>
 
 #include "sph_solver.h"
@@ -108,35 +109,35 @@ FluidEnergies SphSolver<Real>::energies() {
 }
 
 template <class Real>
-LostVolume SphSolver<Real>::lost_volume() {
+Crowding SphSolver<Real>::crowding() {
   constexpr double crowded = 1.1;  // packed particles are so by 1 or 2 %, those that hit a wall by some more
-  kernels_.crowding.launch(count_);
+  over_own(kernels_.crowding);
   const std::vector<Real> fillings = fillings_.download(count_), state = state_.download();
-  LostVolume volume;
-  double most = 0;
+  const std::vector<std::uint32_t> id = id_.download(count_);
   const Real* const volumes = component(state, "volume");
-  for (int i = 0; i < count_; ++i) {
-    const double own = volumes[i];
-    volume.whole += own;
-    if (fillings[i] > crowded) volume.lost += own * (1 - 1.0 / fillings[i]);
-    if (fillings[i] <= most) continue;
-    most = fillings[i];
-    volume.place = place_of(state, i);
+  const double quantum = volume_quantum(discretisation_);
+  Crowding found;
+  for (const int i : own_particles(state)) {
+    if (!std::isfinite(fillings[i]) || !std::isfinite(volumes[i])) continue;  // of which the watchdog tells
+    const double volume = volumes[i], lost = fillings[i] > crowded ? volume * (1 - 1.0 / fillings[i]) : 0.0;
+    found.add({std::llround(lost / quantum), std::llround(volume / quantum), fillings[i], id[i], place_of(state, i)});
   }
-  return volume;
+  return found;
 }
 
 template <class Real>
 FluidState SphSolver<Real>::download() {
   const std::vector<Real> state = state_.download();
+  const std::vector<std::uint32_t> id = id_.download(count_);
   FluidState fluid;
-  fluid.id = id_.download(count_);
   const Real* const pressure = component(state, "pressure");
   const Real* const compression = component(state, "compression");
   const Real* const mass = component(state, "mass");
+  fluid.id.reserve(count_);
   for (auto* const vectors : {&fluid.position, &fluid.velocity}) vectors->reserve(count_);
   for (auto* const numbers : {&fluid.pressure, &fluid.compression, &fluid.mass}) numbers->reserve(count_);
-  for (int i = 0; i < count_; ++i) {
+  for (const int i : own_particles(state)) {
+    fluid.id.push_back(id[i]);
     fluid.position.push_back(place_of(state, i));
     fluid.velocity.push_back(velocity_of(state, i));
     fluid.pressure.push_back(pressure[i]);
@@ -152,7 +153,7 @@ FluidSurface SphSolver<Real>::find_surface() {
   const std::vector<Real> around = around_.download();
   if (!shifts()) around_ = Buffer();
   FluidSurface found;
-  for (int i = 0; i < count_; ++i) {
+  for (const int i : own_particles(part_ ? state_.download() : std::vector<Real>())) {
     found.on_surface.push_back(around[field::around_surface * stride_ + i] > Real(0.5) ? 1 : 0);
     found.shepard.push_back(around[field::around_shepard * stride_ + i]);
     found.eigenvalue.push_back(around[field::around_eigenvalue * stride_ + i]);
@@ -162,19 +163,23 @@ FluidSurface SphSolver<Real>::find_surface() {
 
 template <class Real>
 PairCount SphSolver<Real>::count_pairs() {
-  pair_counts_ = compute::Buffer<int>(device_, 2 * static_cast<std::size_t>(count_));
-  kernels_.pairs.launch(count_);
+  pair_counts_ = compute::Buffer<int>(device_, 2 * static_cast<std::size_t>(stride_));
+  over_own(kernels_.pairs);
   const std::vector<int> values = pair_counts_.download();
   pair_counts_ = compute::Buffer<int>();
-  return {std::accumulate(values.begin(), values.begin() + count_, std::uint64_t{0}),
-          std::accumulate(values.begin() + count_, values.end(), std::uint64_t{0})};
+  PairCount found;
+  for (const int i : own_particles(part_ ? state_.download() : std::vector<Real>())) {
+    found.pairs += static_cast<std::uint64_t>(values[i]);
+    found.candidates += static_cast<std::uint64_t>(values[stride_ + i]);
+  }
+  return found;
 }
 
 template std::unique_ptr<PointSet> SphSolver<float>::make_points(const std::vector<Eigen::Vector3d>&, PointValues) const;
 template std::vector<PointValue> SphSolver<float>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<float>::wrenches();
 template FluidEnergies SphSolver<float>::energies();
-template LostVolume SphSolver<float>::lost_volume();
+template Crowding SphSolver<float>::crowding();
 template FluidState SphSolver<float>::download();
 template FluidSurface SphSolver<float>::find_surface();
 template PairCount SphSolver<float>::count_pairs();
@@ -182,7 +187,7 @@ template std::unique_ptr<PointSet> SphSolver<double>::make_points(const std::vec
 template std::vector<PointValue> SphSolver<double>::evaluate(const PointSet&);
 template std::vector<WallWrench> SphSolver<double>::wrenches();
 template FluidEnergies SphSolver<double>::energies();
-template LostVolume SphSolver<double>::lost_volume();
+template Crowding SphSolver<double>::crowding();
 template FluidState SphSolver<double>::download();
 template FluidSurface SphSolver<double>::find_surface();
 template PairCount SphSolver<double>::count_pairs();

@@ -23,6 +23,8 @@ std::string gradient_block(int component) { return "particles: gradient " + std:
 
 std::string surroundings_block(int component) { return "particles: surroundings " + std::to_string(component); }
 
+std::string place_block(int axis) { return std::string("particles: ") + "xyz"[axis]; }
+
 std::string block_of(const FieldRow& row, const std::string& component) {
   return (row.array == ParticleArray::state ? "particles: " : "particles: rate of ") + component;
 }
@@ -65,9 +67,8 @@ std::vector<char> SphSolver<Real>::save() const {
       {SavedArray::surroundings, saves_gradients() && joins_surface_ ? around_.download() : std::vector<Real>()}};
   const std::vector<Real>& state = from.at(SavedArray::state);
   const std::vector<std::uint32_t> id = id_.download(count_);
-  std::vector<int> order = order_by_id(id);
-  if (part_)
-    order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return component(state, "own")[i] == Real(0); }), order.end());
+  std::vector<int> order = own_particles(state);
+  std::sort(order.begin(), order.end(), [&id](int a, int b) { return id[a] < id[b]; });
   const auto in_order = [&](const auto& value_of) {
     std::vector<std::decay_t<decltype(value_of(0))>> values(order.size());
     std::transform(order.begin(), order.end(), values.begin(), value_of);
@@ -84,69 +85,129 @@ std::vector<char> SphSolver<Real>::save() const {
   return blocks.bytes();
 }
 
+template <class Real>
+std::vector<int> SphSolver<Real>::own_particles(const std::vector<Real>& state) const {
+  std::vector<int> own;
+  own.reserve(count_);
+  const Real* const is_own = part_ ? component(state, "own") : nullptr;
+  for (int i = 0; i < count_; ++i)
+    if (is_own == nullptr || is_own[i] != Real(0)) own.push_back(i);
+  return own;
+}
+
+template <class Real>
+std::vector<char> SphSolver<Real>::laid_out_state(const Layout& layout) const {
+  const auto count = static_cast<Stride>(layout.particles.size());
+  std::vector<Real> state(fields_.count(ParticleArray::state) * static_cast<std::size_t>(count), Real(0));
+  for (Stride i = 0; i < count; ++i) {
+    set_place(state, count, static_cast<int>(i), layout.particles[i]);
+    state[fields_.at(ParticleArray::state, "mass") * count + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
+    state[fields_.at(ParticleArray::state, "volume") * count + i] = static_cast<Real>(layout.volumes[i]);
+  }
+  std::vector<std::uint32_t> id(count);
+  std::iota(id.begin(), id.end(), 0);
+  SnapshotBlocks blocks;
+  blocks.put(id_block, id);
+  blocks.put(next_id_block, std::vector<double>{static_cast<double>(count)});
+  for (const SavedComponent& saved : saved_components(false)) {
+    std::vector<Real> values(count, Real(0));
+    if (saved.array == SavedArray::state) std::copy_n(&state[saved.place * static_cast<std::size_t>(count)], count, values.begin());
+    blocks.put(saved.block, values);
+  }
+  blocks.put(step_block, std::vector<double>(3, 0.0));
+  blocks.put(lists_block, moving_walls_ ? moving_walls_->listed() : std::vector<double>());
+  blocks.put(guard_block, std::vector<double>(guarded_.values().size(), 0.0));
+  return blocks.bytes();
+}
+
+template <class Real>
+std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const std::vector<char>& bytes) const {
+  const Parting& parting = part_->parting();
+  std::vector<std::int64_t> counts(parting.blocks(), 0);
+  for (const int place : places_in_parts(SnapshotBlocks(bytes).get<Real>(place_block(parting.axis))))
+    ++counts[std::min((place - 1) / parting.block, parting.blocks() - 1)];
+  return counts;
+}
+
+template <class Real>
+auto SphSolver<Real>::read_state(const std::vector<char>& bytes) const -> ReadState {
+  const SnapshotBlocks blocks(bytes);
+  std::vector<std::string> names{id_block, next_id_block, step_block, lists_block, guard_block};
+  ReadState read;
+  read.id = open_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
+  const double next_id = blocks.get<double>(next_id_block, 1)[0];
+  const bool ascending = std::adjacent_find(read.id.begin(), read.id.end(), std::greater_equal<>()) == read.id.end();
+  constexpr double most_ids = 4294967296;  // 2³², of whole numbers of 32 bits
+  const bool counts = next_id >= 0 && next_id <= most_ids;
+  if (!ascending || !counts || (!read.id.empty() && next_id <= read.id.back()) || (!open_ && next_id != given_))
+    throw Error("the snapshot's particles are not those of this case: their ids are others.");
+  read.next_id = static_cast<std::int64_t>(next_id);
+  read.with_gradients = holds_gradients_ && blocks.has(gradient_block(0)) && (!joins_surface_ || blocks.has(surroundings_block(0)));
+  for (int k = 0; holds_gradients_ && !read.with_gradients && k < gradient_count(); ++k)
+    names.push_back(gradient_block(k));  // of an older version
+  read.components = saved_components(read.with_gradients);
+  for (const SavedComponent& saved : read.components) {
+    names.push_back(saved.block);
+    read.values.push_back(blocks.get<Real>(saved.block, read.id.size()));
+  }
+  read.step = blocks.get<double>(step_block, 3);
+  read.listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
+  read.impulses = blocks.get<double>(guard_block, guarded_.values().size());
+  blocks.expect_no_others(names);
+  return read;
+}
+
+template <class Real>
+void SphSolver<Real>::keep_own(ReadState& read) const {
+  const std::string along = place_block(part_->parting().axis);
+  const auto place = std::find_if(read.components.begin(), read.components.end(), [&](const auto& saved) { return saved.block == along; });
+  const std::vector<int> mine = in_part(read.values[place - read.components.begin()]);
+  const auto pick = [&mine](auto& all) {
+    auto picked = all;
+    picked.resize(mine.size());
+    for (std::size_t k = 0; k < mine.size(); ++k) picked[k] = all[mine[k]];
+    all = std::move(picked);
+  };
+  pick(read.id);
+  for (std::vector<Real>& of_component : read.values) pick(of_component);
+}
+
 /// Everything is read before anything is set, so that a snapshot that does not fit leaves the solver as it was.
 template <class Real>
 void SphSolver<Real>::restore(const std::vector<char>& bytes) {
-  const SnapshotBlocks blocks(bytes);
-  std::vector<std::string> names{id_block, next_id_block, step_block, lists_block, guard_block};
-  std::vector<std::uint32_t> id =
-      open_ || part_ ? blocks.get<std::uint32_t>(id_block) : blocks.get<std::uint32_t>(id_block, static_cast<std::size_t>(given_));
-  const double next_id = blocks.get<double>(next_id_block, 1)[0];
-  const bool ascending = std::adjacent_find(id.begin(), id.end(), std::greater_equal<>()) == id.end();
-  constexpr double most_ids = 4294967296;  // 2³², of whole numbers of 32 bits
-  const bool counts = next_id >= 0 && next_id <= most_ids;
-  if (!ascending || !counts || (!id.empty() && next_id <= id.back()) || (!open_ && !part_ && next_id != given_))
-    throw Error("the snapshot's particles are not those of this case: their ids are others.");
-  const bool with_gradients = holds_gradients_ && blocks.has(gradient_block(0)) && (!joins_surface_ || blocks.has(surroundings_block(0)));
-  for (int k = 0; holds_gradients_ && !with_gradients && k < gradient_count(); ++k)
-    names.push_back(gradient_block(k));  // of an older version
-  const std::vector<SavedComponent> components = saved_components(with_gradients);
-  std::vector<std::vector<Real>> values;  // of each
-  for (const SavedComponent& saved : components) {
-    names.push_back(saved.block);
-    values.push_back(blocks.get<Real>(saved.block, id.size()));
-  }
-  const std::vector<double> step = blocks.get<double>(step_block, 3);
-  const std::vector<double> listed = blocks.get<double>(lists_block, moving_walls_ ? moving_walls_->listed().size() : 0);
-  const std::vector<double> impulses = blocks.get<double>(guard_block, guarded_.values().size());
-  blocks.expect_no_others(names);
+  ReadState read = read_state(bytes);
   if (part_) {
-    part_->all = static_cast<std::int64_t>(id.size());
+    part_->all = static_cast<std::int64_t>(read.id.size());
     left_.clear();
-    const int axis = part_->parting().axis;
-    const std::vector<int> mine = in_part(blocks.get<Real>(std::string("particles: ") + "xyz"[axis], id.size()));
-    const auto pick = [&](auto& all) {
-      auto picked = all;
-      picked.resize(mine.size());
-      for (std::size_t k = 0; k < mine.size(); ++k) picked[k] = all[mine[k]];
-      all = std::move(picked);
-    };
-    pick(id);
-    for (std::vector<Real>& of_component : values) pick(of_component);
+    keep_own(read);
   }
+  const std::vector<std::uint32_t>& id = read.id;
 
   reserve(std::max(static_cast<int>(id.size()), 1));
   set_count(static_cast<int>(id.size()));
-  next_id_ = static_cast<std::int64_t>(next_id);
+  next_id_ = read.next_id;
   waiting_ = NewParticles();
-  if (moving_walls_) moving_walls_->list_for(walls_, listed);
+  if (moving_walls_) moving_walls_->list_for(walls_, read.listed);
   guarded_.clear();
-  guarded_.values() = impulses;
-  step_ = step[0];
-  greatest_speed_ = step[1];
-  greatest_acceleration_ = step[2];
+  guarded_.values() = read.impulses;
+  step_ = read.step[0];
+  greatest_speed_ = read.step[1];
+  greatest_acceleration_ = read.step[2];
   report_.upload({static_cast<Real>(step_)});  // its first value, which the next step reads
   std::map<SavedArray, std::vector<Real>> arrays{{SavedArray::state, std::vector<Real>(state_.size(), Real(0))},
                                                  {SavedArray::rates, std::vector<Real>(rates_.size(), Real(0))},
                                                  {SavedArray::gradients, std::vector<Real>(gradient_.size(), Real(0))},
                                                  {SavedArray::surroundings, std::vector<Real>()}};
-  if (with_gradients && joins_surface_) {
+  const bool with_surroundings = read.with_gradients && joins_surface_;
+  if (with_surroundings) {
     reserve_surroundings();
     arrays[SavedArray::surroundings].resize(around_.size(), Real(0));
   }
-  for (std::size_t k = 0; k < components.size(); ++k)
-    std::copy(values[k].begin(), values[k].end(),
-              arrays[components[k].array].begin() + static_cast<std::ptrdiff_t>(components[k].place * static_cast<std::size_t>(stride_)));
+  for (std::size_t k = 0; k < read.components.size(); ++k) {
+    const SavedComponent& saved = read.components[k];
+    std::copy(read.values[k].begin(), read.values[k].end(),
+              arrays[saved.array].begin() + static_cast<std::ptrdiff_t>(saved.place * static_cast<std::size_t>(stride_)));
+  }
   std::vector<Real>& state = arrays[SavedArray::state];
   if (part_) std::fill_n(component(state, "own"), count_, Real(1));  // as if all had just come
   // what lies beyond the particles may be left from a run that has gone wrong
@@ -155,11 +216,11 @@ void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   around_.fill_zero();
   state_.upload(state);
   id_.upload(id);
-  sort_all();
+  sort_all_alone();
   upload_by_id(rates_, fields_.count(ParticleArray::rates), arrays[SavedArray::rates]);
-  if (holds_gradients_) find_own_gradients();  // of a snapshot without them; of another they are listed by it
-  if (with_gradients) upload_by_id(gradient_, gradient_count(), arrays[SavedArray::gradients]);
-  if (with_gradients && joins_surface_) upload_by_id(around_, field::around_count, arrays[SavedArray::surroundings]);
+  if (holds_gradients_) find_gradients(Slot::now, ends_with_surface());  // of a snapshot without them; of another they are listed by it
+  if (read.with_gradients) upload_by_id(gradient_, gradient_count(), arrays[SavedArray::gradients]);
+  if (with_surroundings) upload_by_id(around_, field::around_count, arrays[SavedArray::surroundings]);
   masses_let_in_.clear();
 }
 
@@ -205,11 +266,15 @@ void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vec
   array.upload(values);
 }
 
-template std::vector<char> SphSolver<float>::save() const;
-template void SphSolver<float>::restore(const std::vector<char>&);
-template std::vector<char> SphSolver<float>::joined(const std::vector<std::vector<char>>&) const;
-template std::vector<char> SphSolver<double>::joined(const std::vector<std::vector<char>>&) const;
-template std::vector<char> SphSolver<double>::save() const;
-template void SphSolver<double>::restore(const std::vector<char>&);
+#define WAVETANK_SNAPSHOTS(Real)                                                                           \
+  template std::vector<char> SphSolver<Real>::save() const;                                                \
+  template std::vector<int> SphSolver<Real>::own_particles(const std::vector<Real>&) const;                \
+  template auto SphSolver<Real>::read_state(const std::vector<char>&) const->ReadState;                    \
+  template void SphSolver<Real>::restore(const std::vector<char>&);                                        \
+  template std::vector<char> SphSolver<Real>::laid_out_state(const Layout&) const;                         \
+  template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const std::vector<char>&) const; \
+  template std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>&) const;
+WAVETANK_SNAPSHOTS(float)
+WAVETANK_SNAPSHOTS(double)
 
 }  // namespace wavetank

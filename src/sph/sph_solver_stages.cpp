@@ -14,6 +14,11 @@ bool all_finite(const std::vector<WallWrench>& wrenches) {
   return true;
 }
 
+/// Of the grid by which walls are found, the border's too.
+std::size_t cells_of(const Discretisation& d) {
+  return static_cast<std::size_t>(d.cells[0]) * static_cast<std::size_t>(d.cells[1]) * static_cast<std::size_t>(d.cells[2]);
+}
+
 }  // namespace
 
 template <class Real>
@@ -66,12 +71,6 @@ void SphSolver<Real>::sweep_gradients(Slot state, bool with_surface) {
   surface_is_of_now_ = with_surface;
   if (with_surface) reserve_surroundings();
   over_own(with_surface ? kernels_.surroundings : kernels_.gradients[state]);
-}
-
-/// Without the other parts, which all do the same.
-template <class Real>
-void SphSolver<Real>::find_own_gradients() {
-  sweep_gradients(Slot::now, ends_with_surface());
 }
 
 template <class Real>
@@ -217,7 +216,6 @@ void SphSolver<Real>::correct_end() {
   template void SphSolver<Real>::find_gradients(Slot, bool);              \
   template void SphSolver<Real>::sweep_gradients(Slot, bool);             \
   template void SphSolver<Real>::reserve_surroundings();                  \
-  template void SphSolver<Real>::find_own_gradients();                    \
   template void SphSolver<Real>::forget_gradients();                      \
   template void SphSolver<Real>::reserve_blocks();                        \
   template void SphSolver<Real>::add_wrenches(Slot, double);              \

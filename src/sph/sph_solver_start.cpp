@@ -88,7 +88,20 @@ StepReport SphSolver<Real>::start_from_state() {
     find_rates(Slot::now);  // by the one kernel that the steps need as well
   }
   guarded_.clear();
-  return watch();
+  if (part_) part_->still_others(count_, 0);  // the report is of own particles
+  const StepReport report = watch();
+  // a step moves a part's halo with it
+  refresh("acceleration");
+  refresh("compression rate");
+  return report;
+}
+
+template <class Real>
+double SphSolver<Real>::packing_error() {
+  kernels_.packing_chunks.launch(chunks_);
+  packing_sums_.sum(chunks_);
+  const double sum = packing_sums_.download()[0];
+  return std::sqrt(part_ ? sum_of_parts(sum) / static_cast<double>(part_->all) : sum / count_);
 }
 
 /// The walls, and of the lid what holds the water up or to the side.
@@ -160,10 +173,10 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   const auto with_lid = [&](bool real_walls) { return case_walls_.arrays_at_start<Real>(device_, real_walls, case_walls_.lid()); };
   WallArrays<Real> closed = with_lid(!ghosts_);  // the ghosts themselves are the walls
   WallArrays<Real> of_guard = ghosts_ ? with_lid(true) : WallArrays<Real>();
-  const auto launch_among = [this](WallArrays<Real>& walls, const BoundSweep& kernel) {
+  const auto among = [this](WallArrays<Real>& walls, const auto& launch) {
     std::swap(walls_, walls);
     try {
-      kernel.launch(count_);
+      launch();
     } catch (...) {
       std::swap(walls_, walls);
       throw;
@@ -173,19 +186,17 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
   packing_parts_ = Buffer(device_, chunks_);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
-    launch_among(closed, kernels_.packing);
+    among(closed, [this] { over_own(kernels_.packing); });
     hold_zones(Slot::now);
     if (k % report_interval == 0 || k == iterations) {
-      kernels_.packing_chunks.launch(chunks_);
-      packing_sums_.sum(chunks_);
-      report.last_error = std::sqrt(packing_sums_.download()[0] / static_cast<Real>(count_));
+      report.last_error = packing_error();
       if (k == 0) report.first_error = report.last_error;
       if (progress) progress(iterations == 0 ? 1.0 : static_cast<double>(k) / iterations);
     }
     report.iterations = k;
     if (k == iterations) break;
     kernels_.move_packed.launch(count_);
-    launch_among(ghosts_ ? of_guard : closed, kernels_.guard);
+    among(ghosts_ ? of_guard : closed, [this] { kernels_.guard.launch(count_); });
     sort_all();
   }
   packing_parts_ = Buffer();
@@ -194,6 +205,8 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
 
 template StepReport SphSolver<float>::start();
 template StepReport SphSolver<float>::settle(double, const std::function<void(double)>&);
+template double SphSolver<float>::packing_error();
+template double SphSolver<double>::packing_error();
 template PackingReport SphSolver<float>::pack(int, const std::function<void(double)>&);
 template StepReport SphSolver<double>::start();
 template StepReport SphSolver<double>::settle(double, const std::function<void(double)>&);

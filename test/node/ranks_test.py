@@ -84,8 +84,8 @@ class Ranks(ProgramTest):
         streams = dict(stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         return dict(streams, cwd=self.folder, env=self.environment)
 
-    def start(self, ranks, *arguments):
-        command = [MPIRUN, "-n", str(ranks)] + RANKS + [PROGRAM] + list(arguments)
+    def start(self, ranks, *arguments, options=RANKS):
+        command = [MPIRUN, "-n", str(ranks)] + options + [PROGRAM] + list(arguments)
         process = subprocess.Popen(command, bufsize=1, **self.surroundings())
 
         def end():
@@ -188,6 +188,18 @@ class Ranks(ProgramTest):
         self.assertEqual(sentences(errors), [])
         self.assertNotEqual(process.returncode, 0)
         self.assertGreater(self.samples_of("long.bag"), 0)
+
+    def test_an_interrupt_of_the_start_is_told_of(self):
+        """Compilers do not listen, and mpirun kills a second after it has asked."""
+        self.environment["XDG_CACHE_HOME"] = self.path("no_kernels_yet")
+        self.environment["WAVETANK_CACHE_DIRECTORY"] = ""
+        process = self.start(2, self.dam_break(duration=60.0), "--bag", "begun.bag", options=["--oversubscribe", "--bind-to", "none"])
+        read_line_with(process, "compiling kernels")
+        time.sleep(0.5)
+        interrupt(process)
+        output = process.communicate(timeout=20)[0]
+        self.assertIn("interrupted during the start: nothing was simulated and no bag is written", output)
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("begun.bag")])
 
     def test_trouble_of_one_is_told_by_the_first(self):
         without_devices = [":", "-n", "1", "env", "OCL_ICD_VENDORS=/nowhere", PROGRAM]

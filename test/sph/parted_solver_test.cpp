@@ -263,6 +263,16 @@ std::vector<double> readings(Solver& solver, const PointSet& points) {
   const FluidEnergies energies = solver.energies();
   numbers.insert(numbers.end(), {energies.kinetic, energies.potential, energies.compression, energies.mass});
   add(energies.mass_centre);
+  const LostVolume volume = solver.lost_volume();
+  numbers.insert(numbers.end(), {volume.lost, volume.whole});
+  add(volume.place);
+  numbers.push_back(static_cast<double>(solver.count_pairs().pairs));
+  const FluidState fluid = solver.download();
+  numbers.insert(numbers.end(), fluid.id.begin(), fluid.id.end());
+  for (const Vector3d& place : fluid.position) add(place);
+  const FluidSurface surface = solver.find_surface();
+  numbers.insert(numbers.end(), surface.on_surface.begin(), surface.on_surface.end());
+  numbers.insert(numbers.end(), surface.eigenvalue.begin(), surface.eigenvalue.end());
   return numbers;
 }
 
@@ -302,7 +312,7 @@ TEST(PartedSolver, AlsoWhereWaterComesAndGoes) {
   }
 }
 
-/// Points, forces and energies; and no step depends on it.
+/// Points, forces, energies, the free surface; and no step depends on it.
 TEST(PartedSolver, PartsReadTheSame) {
   Case scene = two_afloat();
   scene.numerics.integrator = Integrator::runge_kutta_4;
@@ -338,6 +348,47 @@ TEST(PartedSolver, AShortenedStepStaysShort) {
   tank.solver->shorten_step(1e-9);
   ASSERT_TRUE(tank.run(1));
   EXPECT_NEAR(tank.solver->energies().mass_centre.x(), before, 1e-8);
+}
+
+/// Packing, and water that comes to rest, are the parts' own too: whatever walls they go by then.
+TEST(PartedSolver, AlsoBeforeTheFirstStep) {
+  Case scene = running_out(2, 0.04);
+  scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(1.2, 0, 0.4)}};
+  scene.bodies = {afloat("box", Box{Vector3d(0.5, 0, 0.2), Vector3d(0.72, 0, 0.5)})};
+  const auto rested = [&scene](int parts) {
+    PartedTank tank(scene, parts, spoiled());
+    double told = 0;
+    EXPECT_GT(tank.solver->pack(20, [&told](double fraction) { told = fraction; }).first_error, 0);
+    EXPECT_EQ(told, 1);
+    EXPECT_TRUE(tank.solver->settle(0.5, {}).valid());
+    std::vector<char> states = tank.solver->save();
+    EXPECT_TRUE(tank.run(10));
+    const std::vector<char> later = tank.solver->save();
+    states.insert(states.end(), later.begin(), later.end());
+    return states;
+  };
+  const auto expect_the_same = [&](const std::vector<int>& counts) {
+    const std::vector<char> one = rested(1);
+    for (const int parts : counts) EXPECT_TRUE(rested(parts) == one) << parts << " parts";
+  };
+  expect_the_same({2, 3});
+  scene.numerics.integrator = Integrator::runge_kutta_4;
+  scene.numerics.scheme = Scheme::riemann_ale;
+  scene.numerics.shifting = Shifting::michel;
+  expect_the_same({2});
+  scene.numerics.integrator = Integrator::symplectic;
+  scene.numerics.walls.elements = WallElements::numerical;
+  scene.bodies.clear();
+  expect_the_same({2});
+}
+
+/// A snapshot of another case leaves the water as it was.
+TEST(PartedSolver, RefusesAStateOfOtherWater) {
+  PartedTank tank(running_out(2, 0.04), 2), other(running_out(2, 0.05), 1);
+  ASSERT_TRUE(tank.run(3));
+  const std::vector<char> before = tank.solver->save();
+  EXPECT_NE(error_of([&] { tank.solver->restore(other.solver->save()); }), "");
+  EXPECT_TRUE(tank.solver->save() == before);
 }
 
 TEST(PartedSolver, CutsDoNotMatter) {

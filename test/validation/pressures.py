@@ -109,6 +109,16 @@ def by_kind(figures, series, kind):
     return None
 
 
+def levels(figures, recorded, end):
+    """Of each gauge with levels on record the names, times and differences from them in %, up to `end`."""
+    found = []
+    for series in recorded:
+        known = [figure for figure in figures.get(series.name, []) if figure.kind == "level" and figure.time <= end]
+        if known:
+            found.append((series.name, [figure.time for figure in known], differences([(f.measured(), f.simulated(series)) for f in known])))
+    return found
+
+
 def table(head, rows):
     print("| " + " | ".join(head) + " |")
     print("|" + "---|" * len(head))
@@ -131,7 +141,7 @@ def main():
     os.makedirs(folder, exist_ok=True)
     tool = plot_probes()
     figures = tool.read_figures(figures_path)
-    rows, on_top, failed = [], [], []
+    rows, on_top, failed, gauges = [], [], [], {}
     for name in names:
         try:
             bag, facts = run(program, case, folder, name, spacing)
@@ -139,7 +149,10 @@ def main():
             print("pressures: %s" % wrong, file=sys.stderr, flush=True)
             failed.append([name, str(wrong)])
             continue
-        probes = {series.name: series for series in tool.read_bag(bag, None).pressures}
+        record = tool.read_bag(bag, None)
+        probes = {series.name: series for series in record.pressures}
+        heights = levels(figures, record.levels, ENDS[name])
+        gauges.update((gauge, times) for gauge, times, _ in heights if len(times) > len(gauges.get(gauge, [])))
         found = {kind: [by_kind(figures, probes[probe], kind) for probe in SAMPLED[:4]] for kind in ("peak", "noise", "impulse", "arrival")}
         mean = sum(tool.impulse(probes[probe], 0.6, 1.0) for probe in SAMPLED[:4]) / 1.6
         rows.append(
@@ -150,6 +163,7 @@ def main():
                 differences(found["impulse"]),
                 "%.0f" % mean,
                 "%+.0f" % (1000 * (found["arrival"][0][1] - found["arrival"][0][0])),
+                "; ".join(difference for _, _, difference in heights),
                 "%s, %.2f" % (facts["steps"], float(facts["processor_time"]) / max(int(facts["steps"] or 0), 1)),
                 facts["version"],
             ]
@@ -165,11 +179,14 @@ def main():
             "impulses to 1.0 s, %",
             "mean of P1 to P4 over 0.6–1.0 s, Pa",
             "P1 above 500 Pa later by, ms",
+            "levels, %",
             "steps, s of processor time each",
             "version",
         ],
         rows,
     )
+    if gauges:
+        print("Levels: %s s.\n" % "; ".join("%s at %s" % (gauge, ", ".join("%g" % time for time in times)) for gauge, times in gauges.items()))
     if on_top:
         print("Impulses of P5 to P8 over 1.0–2.5 s, %%: %s.\n" % "; ".join(on_top))
     for name, sentence in failed:

@@ -29,9 +29,16 @@ class BagRun {
   /// where.
   Outcome run();
 
+  /// From another thread: ends the process as an interrupted start ends, with this exit code, if the run has not come to its first step
+  /// yet. For where a start may not take the time until it next looks at `interrupted`: compilers take seconds, and a launcher waits for
+  /// one.
+  void leave_start(int exit_code);
+
  private:
   using Clock = std::chrono::steady_clock;
   void start();
+  void make_simulation();
+  void tell_of_start();
   void step_to_the_end();
   void write_samples();
   void record(const Samples& samples);
@@ -39,6 +46,8 @@ class BagRun {
   void finish_vtk();
   void finish_bag();
   Outcome left_start();
+  /// Nobody leaves the start any more but who does so here; does not return if it was left.
+  void pass_start();
   void cut_short(const Error& full);
   RunState run_state(std::uint8_t phase) const;
   std::string failure_snapshot() const;
@@ -73,6 +82,7 @@ class BagRun {
   bool bag_is_whole_ = false;
   double next_save_ = 0;  ///< s of simulated time, of --save-every
   bool told_of_save_ = false;
+  std::atomic<bool> is_past_start_{false};  ///< or it was left
 };
 
 }  // namespace wavetank

@@ -1,11 +1,17 @@
 #include "integrator.h"
 
+#include "../tables/device_sizes.h"
 #include "wavetank/sph/schedule_page.h"
 
 namespace wavetank {
 
 std::vector<Access> state_of(const std::string& instant) {
   return at(instant, {"position", "velocity", "compression", "followers", "pressure", "volume"});
+}
+
+double greatest_drift(const Schedule& schedule, const Case& scene, const Discretisation& d) {
+  const double shift = scene.numerics.shifting == Shifting::none ? 0 : field::shift_most * d.spacing;
+  return schedule.drift() * (0.5 * scene.numerics.courant * d.smoothing_length + shift);
 }
 
 Stage guard_stage(StepEngine* engine, const std::vector<Access>& came) {

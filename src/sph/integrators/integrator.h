@@ -2,6 +2,7 @@
 
 #include "../schedule/schedule.h"
 #include "wavetank/scene/case.h"
+#include "wavetank/sph/discretisation.h"
 
 namespace wavetank {
 
@@ -65,6 +66,10 @@ Schedule predictor_corrector(StepEngine* engine);
 
 /// The case's, with its shifting law and its openings.
 Schedule schedule_of(const Case& scene, StepEngine* engine);
+
+/// How far a particle, at the most, is from where it was sorted when its neighbours are gone over, m: a step is courant h/c₀ at the most,
+/// and at half the speed of sound the watchdog ends the run.
+double greatest_drift(const Schedule& schedule, const Case& scene, const Discretisation& discretisation);
 
 /// What a state consists of, and what follows from it.
 std::vector<Access> state_of(const std::string& instant);

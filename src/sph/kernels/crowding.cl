@@ -16,8 +16,7 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 
 __kernel void crowding(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                        WALL_ARGUMENTS, __global const real* images, __global real* fillings) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);

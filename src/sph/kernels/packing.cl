@@ -40,8 +40,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 // The displacement of one iteration, written as rates over a unit of time; RATE_COMPRESSION holds h |E|, for the report.
 __kernel void packing(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                       WALL_ARGUMENTS, __global const real* images, __global const real* film, __global real* rates) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);

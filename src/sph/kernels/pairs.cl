@@ -19,11 +19,10 @@ INLINE void add_particle(sweep_t* a, __constant const parameters_t* p, int j, ti
 
 #include "sweep.cl"
 
-// counts: the pairs of each particle, and then their candidates: all whose distance was found, those of a vector's lanes that go to waste among them.
+// counts: the pairs of each particle, and a stride on their candidates: all whose distance was found, those of a vector's lanes that go to waste among them.
 __kernel void pairs(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride, real reach,
                     WALL_ARGUMENTS, __global const real* images, __global int* counts) {
-  const int first = TILE_OWN * get_global_id(0);
-  if (first >= count) return;
+  TAKE_TILE(first, count)
   const walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
   neighbours_of(&a.near, state, stride, reach, &walls, first, count);
@@ -33,6 +32,6 @@ __kernel void pairs(__constant const parameters_t* p, int count, __global const 
   own_sums(a.candidates, candidates);
   for (int k = 0; k < a.near.own; ++k) {
     counts[first + k] = (int)within[k] - 1;  // it is its own candidate, once
-    counts[count + first + k] = (int)candidates[k];
+    counts[stride + first + k] = (int)candidates[k];
   }
 }

@@ -220,11 +220,14 @@ __kernel void energy_pieces(__constant const parameters_t* p, int rows, int piec
 }
 
 // Packing's report: Σ (h |E|)².
-__kernel void packing_chunks(int count, __global const real* rates, long stride, __global real* sums) {
+__kernel void packing_chunks(int count, __global const real* state, __global const real* rates, long stride, __global real* sums) {
   const int chunk = get_global_id(0);
   if (chunk * REDUCE_CHUNK >= max(count, 1)) return;
   real sum = R(0.0), rest = R(0.0);
   for (int i = chunk * REDUCE_CHUNK; i < min(count, (chunk + 1) * REDUCE_CHUNK); ++i) {
+#ifdef PARTED
+    if (state[FIELD_OWN * stride + i] == R(0.0)) continue;
+#endif
     const real error = rates[RATE_COMPRESSION * stride + i];
     add_compensated(error * error, &sum, &rest);
   }
