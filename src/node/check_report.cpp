@@ -78,4 +78,14 @@ std::string check_report(const Case& checked, const Estimate& estimated) {
   return text;
 }
 
+std::string parts_report(const Case& checked, const PartsEstimate& estimated) {
+  const PartsNeed& need = estimated.need;
+  const double bytes_in_mib = 1024.0 * 1024.0;
+  std::string text = visible_text(checked.title) + "\n";
+  text += line("particles", formatted("%zu, spacing %.4g m", estimated.particles, estimated.spacing));
+  text += line("parts", formatted("%d, the largest with %zu particles of its own and %zu of others", need.parts, need.own, need.others));
+  text += line("device memory", formatted("%.1f MiB, of the largest part at the start", need.memory / bytes_in_mib));
+  return text;
+}
+
 }  // namespace wavetank

@@ -81,6 +81,9 @@ RunOptions read_command_line(int argc, char** argv) {
   app.add_flag("--profile", options.profile, "time each kernel and print a table at the end");
   app.add_flag("--quiet,-q", options.quiet, "print nothing but warnings and errors");
   app.add_flag("--check", check, "read and lay out the case, report sizes, masses, draughts and the estimated time, run nothing");
+  const CLI::Option* const parts =
+      app.add_option("--parts", options.parts, "with --check: report what the water in so many parts would need, and no time")
+          ->type_name("N");
   app.add_flag("--schedule", schedule, "print the stages of the case's time step, and what each reads and writes; run nothing");
   app.add_flag("--list-devices", list_devices, "print the OpenCL devices of this machine");
   app.add_flag("--version", show_version, "print the version");
@@ -115,6 +118,9 @@ RunOptions read_command_line(int argc, char** argv) {
     throw Error("--save-every must be from 0.000001 to 1e15 s of simulated time");
   if (options.surface && options.bag.empty() && options.vtk.empty()) throw Error("--surface needs --bag FILE or --vtk DIR to write it to");
   if (options.surface && !can_find_surface()) throw Error(std::string("--surface: ") + why_no_surface);
+  if (parts->count() > 0 && !check)
+    throw Error("--parts needs --check, which tells what so many parts would need; a run has as many as --device names, or mpirun starts");
+  if (parts->count() > 0 && !(options.parts >= 1 && options.parts <= 100000)) throw Error("--parts must be from 1 to 100000");
   if (!duration.empty()) options.overrides.push_back({"duration", duration});
   if (!device.empty()) options.overrides.push_back({"device", yaml_of(device)});  // quoted: 0:1 is a number to some YAML
   if (check && schedule) throw Error("--check and --schedule are asked for, but each prints a page of its own: give one of them");

@@ -53,6 +53,10 @@ void check(const RunOptions& options) {
   check_names(checked);
   SimulationOptions simulation_options;
   simulation_options.resolve = resolve_resource;
+  if (options.parts > 0) {
+    std::fputs(parts_report(checked, estimate_parts(checked, options.parts, simulation_options)).c_str(), stdout);
+    return;
+  }
   std::fputs(check_report(checked, estimate(checked, simulation_options)).c_str(), stdout);
 }
 

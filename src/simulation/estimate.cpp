@@ -3,6 +3,7 @@
 
 #include "expected_waves.h"
 #include "simulation_parts.h"
+#include "wavetank/sph/parted_solver.h"
 
 namespace wavetank {
 namespace {
@@ -95,6 +96,13 @@ Estimate estimate(const Case& checked, const SimulationOptions& options) {
   result.instrument_seconds = steps * parts.recorder.seconds_a_step(solver, result.time_step);
   result.wall_seconds = result.start_seconds + result.step_seconds + result.instrument_seconds;
   return result;
+}
+
+PartsEstimate estimate_parts(const Case& checked, int parts, const SimulationOptions& options) {
+  const Layout layout = lay_out(checked, options.resolve);
+  const Case scene = settled(checked, layout);
+  const compute::Device device(compute::choose_devices(scene.device)[0]);
+  return {layout.spacing, layout.particles.size(), need_of_parts(parts, device, scene, layout, discretise(scene, layout))};
 }
 
 }  // namespace wavetank

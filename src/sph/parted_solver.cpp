@@ -105,6 +105,13 @@ Parting parting_for(const Case& scene, const Layout& layout, const Discretisatio
   return parting;
 }
 
+/// Of blocks, the least that a part may have: halos are of the parts beside it, and none may be in that of the one beyond when it comes
+/// into it.
+int least_blocks(const Parting& parting, int parts, int halo_less) {
+  const int way = parts > 2 ? parting.way : 0;
+  return (parting.halo + halo_less + way + parting.block - 1) / parting.block;
+}
+
 class PartedSolver final : public Solver {
  public:
   /// Parts in this process, one a device.
@@ -303,12 +310,7 @@ class PartedSolver final : public Solver {
     ask(order);
   }
 
-  /// Of blocks, the least that a part may have: halos are of the parts beside it, and none may be in that of the one beyond when it comes
-  /// into it.
-  int least_blocks() const {
-    const int way = team_.size() > 2 ? parting_.way : 0;
-    return (parting_.halo + options_.halo_less + way + parting_.block - 1) / parting_.block;
-  }
+  int least_blocks() const { return wavetank::least_blocks(parting_, team_.size(), options_.halo_less); }
 
   /// Of one kind, or at least with the same grid.
   void check_devices() const {
@@ -380,6 +382,34 @@ class PartedSolver final : public Solver {
 };
 
 }  // namespace
+
+PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& scene, const Layout& layout,
+                        const Discretisation& discretisation) {
+  parallel::ThreadGroup group(parts);
+  Parting parting = parting_for(scene, layout, discretisation, device.info(), {});
+  parting.group = &group.member(0);
+  const std::vector<Eigen::Vector3d> centres(1 + scene.bodies.size(), Eigen::Vector3d::Zero());
+  const std::unique_ptr<PartServer> part = make_part_server(device, parting, scene, layout, discretisation, centres);
+  const Bytes state = part->laid_out_state(layout);
+  const std::vector<int> cuts = parallel::cut_into_slabs(part->particles_in_blocks(state), parts, least_blocks(parting, parts, 0));
+  const std::vector<std::int64_t> in_places = part->particles_in_places(state);
+  const auto between = [&](int begin, int end) {
+    std::int64_t count = 0;
+    for (int k = begin; k < end; ++k) count += in_places[parting.in_ring(k, parting.wraps())];  // none in place 0
+    return static_cast<std::size_t>(count);
+  };
+  PartsNeed need;
+  need.parts = parts;
+  for (int k = 0; k < parts; ++k) {
+    const int begin = parting.begin_of(cuts[k]), end = parting.begin_of(cuts[k + 1]);
+    const std::size_t own = between(begin, end), all = parts == 1 ? own : between(begin - parting.halo, end + parting.halo);
+    if (all < need.own + need.others) continue;
+    need.own = own;
+    need.others = all - own;
+  }
+  need.memory = static_cast<double>(part->memory_for(static_cast<int>(need.own + need.others)));
+  return need;
+}
 
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,

@@ -40,7 +40,7 @@ const std::vector<ParameterRow>& part_parameters() {
 void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts) {
   const int rank = parting.group->rank(), last = parting.group->size() - 1;
   const bool wraps = parting.wraps();
-  const auto place = [&](int cut) { return 1 + (cuts[cut] == parting.blocks() ? parting.places : cuts[cut] * parting.block); };
+  const auto place = [&](int cut) { return parting.begin_of(cuts[cut]); };
   const int begin = place(rank), end = place(rank + 1);
   const bool has_before = rank > 0 || wraps, has_after = rank < last || wraps;
   const int before = rank > 0 ? place(rank - 1) : wraps ? place(last) - parting.places : begin;
@@ -59,11 +59,9 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
 
 std::vector<char> places_had(const ParameterBlock& values, const Parting& parting) {
   const int begin = static_cast<int>(values.at("halo_begin")), end = static_cast<int>(values.at("halo_end"));
-  std::vector<char> has(parting.places + 2, 0);
-  for (int place = begin; place < end; ++place) {  // beyond an end of a ring, at the other
-    const int there = place < 1 ? place + parting.places : place > parting.places ? place - parting.places : place;
-    has.at(there) = 1;
-  }
+  std::vector<char> has(parting.places + 1, 0);
+  for (int place = begin; place < end; ++place) has[parting.in_ring(place, parting.wraps())] = 1;
+  has[0] = 0;
   return has;
 }
 

@@ -29,6 +29,13 @@ struct Parting {
   bool spoils = false;               ///< for tests: what others have not sent yet is not a number
 
   int blocks() const { return std::max(places / block, 1); }
+  /// Where a block begins, or, of the number of blocks, the place after the last.
+  int begin_of(int of_block) const { return 1 + (of_block == blocks() ? places : of_block * block); }
+  /// The place in the tank that this is, where places go on beyond the ends of a ring; 0 if there is none.
+  int in_ring(int place, bool ring) const {
+    const int there = !ring ? place : place < 1 ? place + places : place > places ? place - places : place;
+    return there >= 1 && there <= places ? there : 0;
+  }
   /// The first and the last part lie beside each other; of two parts either is on both sides of the other.
   bool wraps() const { return periodic && group->size() > 1; }
 };

@@ -134,6 +134,12 @@ void SphSolver<Real>::reserve(int count) {
 }
 
 template <class Real>
+std::size_t SphSolver<Real>::memory_for(int particles) {
+  reserve(particles);
+  return device_memory();
+}
+
+template <class Real>
 void SphSolver<Real>::add_waiting() {
   const std::vector<int> own = part_ ? own_points(waiting_.position) : std::vector<int>();
   const auto coming = static_cast<int>(waiting_.position.size());
@@ -184,6 +190,7 @@ void SphSolver<Real>::add_waiting() {
 #define WAVETANK_POPULATION(Real)                                            \
   template void SphSolver<Real>::set_count(int);                             \
   template void SphSolver<Real>::reserve(int);                               \
+  template std::size_t SphSolver<Real>::memory_for(int);                     \
   template void SphSolver<Real>::let_in(const NewParticles&);                \
   template void SphSolver<Real>::set_drains(const std::vector<Drain>&);      \
   template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&); \

@@ -123,9 +123,18 @@ std::vector<char> SphSolver<Real>::laid_out_state(const Layout& layout) const {
 template <class Real>
 std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const std::vector<char>& bytes) const {
   const Parting& parting = part_->parting();
+  const std::vector<std::int64_t> in_places = particles_in_places(bytes);
   std::vector<std::int64_t> counts(parting.blocks(), 0);
-  for (const int place : places_in_parts(SnapshotBlocks(bytes).get<Real>(place_block(parting.axis))))
-    ++counts[std::min((place - 1) / parting.block, parting.blocks() - 1)];
+  for (int place = 1; place <= parting.places; ++place)
+    counts[std::min((place - 1) / parting.block, parting.blocks() - 1)] += in_places[place];
+  return counts;
+}
+
+template <class Real>
+std::vector<std::int64_t> SphSolver<Real>::particles_in_places(const std::vector<char>& bytes) const {
+  const Parting& parting = part_->parting();
+  std::vector<std::int64_t> counts(parting.places + 1, 0);
+  for (const int place : places_in_parts(SnapshotBlocks(bytes).get<Real>(place_block(parting.axis)))) ++counts[place];
   return counts;
 }
 
@@ -272,6 +281,7 @@ void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vec
   template auto SphSolver<Real>::read_state(const std::vector<char>&) const->ReadState;                    \
   template void SphSolver<Real>::restore(const std::vector<char>&);                                        \
   template std::vector<char> SphSolver<Real>::laid_out_state(const Layout&) const;                         \
+  template std::vector<std::int64_t> SphSolver<Real>::particles_in_places(const std::vector<char>&) const; \
   template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const std::vector<char>&) const; \
   template std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>&) const;
 WAVETANK_SNAPSHOTS(float)

@@ -54,6 +54,7 @@ TEST(RunOptions, DoNotSwallowTheCaseAfterSet) {
 TEST(RunOptions, ChooseTheAction) {
   EXPECT_EQ(read({"--list-devices"}).action, RunOptions::Action::list_devices);
   EXPECT_EQ(read({"--check", "a.yaml"}).action, RunOptions::Action::check);
+  EXPECT_EQ(read({"--check", "a.yaml", "--parts", "4"}).parts, 4);
 }
 
 TEST(RunOptions, RefuseWhatMakesNoSense) {
@@ -72,6 +73,8 @@ TEST(RunOptions, RefuseWhatMakesNoSense) {
   EXPECT_THROW(read({"a.yaml", "--surface"}), Error);
   EXPECT_THROW(read({"a.yaml", "b.yaml"}), Error);
   EXPECT_THROW(read({"a.yaml", "--bag"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--parts", "4"}), Error);
+  EXPECT_THROW(read({"a.yaml", "--check", "--parts", "0"}), Error);
 }
 
 TEST(DurationText, SuitsTheLength) {

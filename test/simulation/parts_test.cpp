@@ -95,6 +95,20 @@ TEST_F(Parts, HaveTheSameFlows) {
   }
 }
 
+/// What --check tells of parts is what they have.
+TEST_F(Parts, NeedWhatIsToldBefore) {
+  const Case scene = on("auto");
+  const PartsEstimate one = estimate_parts(scene, 1), two = estimate_parts(scene, 2);
+  EXPECT_EQ(one.need.own, one.particles);
+  EXPECT_EQ(one.need.others, 0u);
+  EXPECT_GE(2 * two.need.own, two.particles);
+  EXPECT_LT(two.need.own, 0.7 * static_cast<double>(two.particles));
+  EXPECT_GT(two.need.others, 0u);
+  EXPECT_LT(two.need.others, 0.5 * static_cast<double>(two.particles));
+  EXPECT_LT(two.need.memory, one.need.memory);
+  EXPECT_NE(error_of([&] { estimate_parts(scene, 100); }).find("too short"), std::string::npos);
+}
+
 TEST_F(Parts, AreRefusedWhereTheWaterIsTooShort) {
   Case scene = on("auto,auto,auto,auto,auto,auto,auto,auto,auto,auto,auto,auto");
   const std::string sentence = error_of([&] { Simulation simulation(scene); });

@@ -23,6 +23,7 @@ struct RunOptions {
   std::string restore;              ///< empty = start at time 0
   std::string save;                 ///< empty = no snapshot at the end
   double save_every = 0;            ///< s of simulated time between snapshots on the way; 0 = none
+  int parts = 0;                    ///< for which the water's need is to be told; 0 = the case is to be checked as it is
   bool profile = false;
   bool quiet = false;
 };

@@ -16,6 +16,7 @@
 #include "wavetank/scene/case.h"
 #include "wavetank/simulation/case_size.h"
 #include "wavetank/sph/pair_count.h"
+#include "wavetank/sph/parts_need.h"
 
 namespace wavetank::parallel {
 class Team;
@@ -77,7 +78,7 @@ struct SimulationOptions {
   /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
   std::function<void(const std::string& what, double fraction)> progress;
   bool time_kernels = false;
-  /// Processes that make the steps, each of them a part of the water, with this one, which is the first and has all the water besides. The
+  /// Processes that make the steps, each of them a part of the water, with this one, which is the first. The
   /// others serve it by part_work (simulation/part_work.h). Must outlive the simulation. None: devices of this process alone.
   parallel::Team* team = nullptr;
 };
@@ -100,6 +101,14 @@ struct Estimate {
 };
 /// Measured on the case's device, as busy as it is now.
 Estimate estimate(const Case& checked, const SimulationOptions& options = {});
+
+/// What its water in so many parts would need, the largest of which is made on the case's first device. Throws Error as Simulation does.
+struct PartsEstimate {
+  double spacing = 0;         ///< m
+  std::size_t particles = 0;  ///< of all
+  PartsNeed need;
+};
+PartsEstimate estimate_parts(const Case& checked, int parts, const SimulationOptions& options = {});
 
 /// One simulation made from a case: fluid, bodies and instruments. Not thread-safe: one thread at a time.
 class Simulation {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wavetank/parallel/group.h"
+#include "wavetank/sph/parts_need.h"
 #include "wavetank/sph/solver.h"
 
 namespace wavetank {
@@ -34,6 +35,10 @@ std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& d
 std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,
                                            const Case& settled_case, const Layout& layout, const Discretisation& discretisation,
                                            const std::vector<Eigen::Vector3d>& centres);
+
+/// Makes that one alone. Throws Error if the water is too short for them, or the device too small.
+PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& settled_case, const Layout& layout,
+                        const Discretisation& discretisation);
 
 /// What another process of the team makes its part of.
 struct PreparedPart {
