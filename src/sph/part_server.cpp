@@ -240,7 +240,7 @@ class PartServerOf final : public PartServer {
   void check_state(const Bytes& state) const override { solver_.check_state(state); }
   std::vector<std::int64_t> particles_in_blocks(const Bytes& state) const override { return solver_.particles_in_blocks(state); }
   std::vector<std::int64_t> particles_in_places(const Bytes& state) const override { return solver_.particles_in_places(state); }
-  std::size_t memory_for(int particles) override { return solver_.memory_for(particles); }
+  std::size_t memory_for(const std::vector<int>& cuts, int particles) override { return solver_.memory_for(cuts, particles); }
   Bytes joined(const std::vector<Bytes>& parts) const override { return solver_.joined(parts); }
   std::optional<ThinWall> thinnest_wall() const override { return solver_.thinnest_wall(); }
   const StepReport& report() const override { return report_; }

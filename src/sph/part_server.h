@@ -101,8 +101,7 @@ class PartServer {
   virtual std::vector<std::int64_t> particles_in_places(const parallel::Bytes& state) const = 0;
   virtual parallel::Bytes joined(const std::vector<parallel::Bytes>& parts) const = 0;
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
-  /// Bytes on the device with room for so many particles.
-  virtual std::size_t memory_for(int particles) = 0;
+  virtual std::size_t memory_for(const std::vector<int>& cuts, int particles) = 0;
   /// Of the last step, or the start, the same of all parts.
   virtual const StepReport& report() const = 0;
   virtual const PackingReport& packing() const = 0;

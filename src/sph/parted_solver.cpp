@@ -389,7 +389,7 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
   Parting parting = parting_for(scene, layout, discretisation, device.info(), {});
   parting.group = &group.member(0);
   const std::vector<Eigen::Vector3d> centres(1 + scene.bodies.size(), Eigen::Vector3d::Zero());
-  const std::unique_ptr<PartServer> part = make_part_server(device, parting, scene, layout, discretisation, centres);
+  std::unique_ptr<PartServer> part = make_part_server(device, parting, scene, layout, discretisation, centres);
   const Bytes state = part->laid_out_state(layout);
   const std::vector<int> cuts = parallel::cut_into_slabs(part->particles_in_blocks(state), parts, least_blocks(parting, parts, 0));
   const std::vector<std::int64_t> in_places = part->particles_in_places(state);
@@ -400,14 +400,19 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
   };
   PartsNeed need;
   need.parts = parts;
+  int largest = 0;
   for (int k = 0; k < parts; ++k) {
     const int begin = parting.begin_of(cuts[k]), end = parting.begin_of(cuts[k + 1]);
     const std::size_t own = between(begin, end), all = parts == 1 ? own : between(begin - parting.halo, end + parting.halo);
     if (all < need.own + need.others) continue;
+    largest = k;
     need.own = own;
     need.others = all - own;
   }
-  need.memory = static_cast<double>(part->memory_for(static_cast<int>(need.own + need.others)));
+  parting.group = &group.member(largest);
+  part.reset();
+  part = make_part_server(device, parting, scene, layout, discretisation, centres);
+  need.memory = static_cast<double>(part->memory_for(cuts, static_cast<int>(need.own + need.others)));
   return need;
 }
 

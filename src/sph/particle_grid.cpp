@@ -20,6 +20,20 @@ ParticleGrid::ParticleGrid(const compute::Device& device, int slots, int particl
       slot_of_(device, particles),
       order_(device, particles) {}
 
+void ParticleGrid::resize(const compute::Device& device, int slots, int listed) {
+  slots_ = slots;
+  all_slots_ = slots + 1;
+  blocks_ = blocks_of(all_slots_);
+  groups_ = blocks_of(blocks_);
+  const auto wanted = static_cast<std::size_t>(all_slots_);
+  if (starts_.size() < wanted + 1 + listed) starts_ = compute::Buffer<int>(device, wanted + 1 + listed);
+  if (counts_.size() >= wanted) return;  // all zero, as between two sorts
+  counts_ = compute::Buffer<int>(device, wanted);
+  block_sums_ = compute::Buffer<int>(device, blocks_ + 1);
+  group_sums_ = compute::Buffer<int>(device, groups_);
+  block_starts_ = compute::Buffer<int>(device, blocks_ + 1);
+}
+
 void ParticleGrid::reserve(const compute::Device& device, int particles, int listed) {
   if (listed > 0) {  // the step in progress still goes by them
     std::vector<int> had = starts_.download();

@@ -13,6 +13,8 @@ class ParticleGrid {
   /// `listed`: values that starts() has room for after those of the slots.
   ParticleGrid(const compute::Device& device, int slots, int particles, int listed = 0);
 
+  /// Another number of slots. What starts() had is lost.
+  void resize(const compute::Device& device, int slots, int listed);
   /// Room for so many particles. What starts() had is lost if there is a list.
   void reserve(const compute::Device& device, int particles, int listed = 0);
   /// `arguments`: `state` and `id` are what is sorted, into `half_state` and `spare_id`, with which they are to be swapped then; and the

@@ -28,6 +28,9 @@ const std::vector<ParameterRow>& part_parameters() {
         {"near_begin", "where the part before it begins, likewise"},
         {"near_end", "where the part after it ends"},
         {"halo_width", "places"},
+        {"window_begin", "the place that is the first in memory, an empty one, as is the last"},
+        {"window_size", "places in memory"},
+        {"window_slots", "slots in memory, of all rows"},
         {"part_period", "places of the tank where the parts form a ring, else 0"},
         {"part_pair", "1: a ring of two, where all that the other needs goes out once"}};
     for (const auto& [name, meaning] : meanings)
@@ -53,6 +56,17 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
   values.set("near_begin", before);
   values.set("near_end", after);
   values.set("halo_width", parting.halo);
+  // all places, where in a ring there is next to nothing between the ends of the window
+  const int width = static_cast<int>(values.at("halo_end") - values.at("halo_begin")) + 2;
+  const bool whole = wraps && width + 2 * parting.halo > parting.places;
+  const int size = whole ? parting.places + 2 : width;
+  values.set("window_begin", whole ? 0 : values.at("halo_begin") - 1);
+  values.set("window_size", size);
+  const double others[] = {values.at("slots_x"), values.at("rows_y"), values.at("rows_z")};
+  double slots = size;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != parting.axis) slots *= others[axis];
+  values.set("window_slots", slots);
   values.set("part_period", wraps ? parting.places : 0);
   values.set("part_pair", wraps && last == 1 ? 1 : 0);
 }

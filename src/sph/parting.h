@@ -48,7 +48,7 @@ int slots_of_segment(const Discretisation& discretisation, const GridShape& grid
 const std::vector<FieldRow>& part_fields();
 const std::vector<ParameterRow>& part_parameters();
 
-/// Sets those of the part of this rank, where the parts begin and end at these blocks.
+/// Sets those of the part of this rank, where the parts begin and end at these blocks. `values`: with the grid's.
 void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<int>& cuts);
 
 /// Of each place, 1 if the part whose numbers these are has its particles, as its own or in its halo.

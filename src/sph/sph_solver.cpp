@@ -169,10 +169,8 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
   upload_parameters(*values_);
   surroundings_.stride = stride_;
   surroundings_.reach = static_cast<Real>(discretisation_.support);
-  surroundings_.grid = ParticleGrid(device, grid_shape_.slots(), static_cast<int>(stride_));
-  if (rows.parting)
-    part_ = std::make_unique<WaterPart<Real>>(device, *rows.parting, grid_shape_.rows_y * grid_shape_.rows_z, grid_shape_.slots(),
-                                              tiling_.particles.own);
+  surroundings_.grid = ParticleGrid(device, rows.parting ? 1 : grid_shape_.slots(), static_cast<int>(stride_));  // a part's by set_cuts()
+  if (rows.parting) part_ = std::make_unique<WaterPart<Real>>(device, *rows.parting, tiling_.particles.own);
   surroundings_.barriers.place(device, case_walls_.thin_facets(), case_walls_.thin().free_edges, case_walls_.facets(), discretisation_);
   surroundings_.images = Buffer(device, image_values<Real>(images_));
   SphSolver::set_film({});

@@ -73,8 +73,8 @@ class SphSolver final : public Solver, private StepEngine {
   /// Of a state, its particles by the blocks that Parting has; and by its places, the first of which is 1.
   std::vector<std::int64_t> particles_in_blocks(const std::vector<char>& bytes) const;
   std::vector<std::int64_t> particles_in_places(const std::vector<char>& bytes) const;
-  /// Bytes on the device with room for so many particles.
-  std::size_t memory_for(int particles);
+  /// Bytes on the device of the part between these cuts with room for so many particles.
+  std::size_t memory_for(const std::vector<int>& cuts, int particles);
   /// The next restore() takes of a state of all the water what lies between these cuts, and the halo.
   void set_cuts(const std::vector<int>& cuts);
   /// What the parts have saved of their own particles, as one would save it that had them all.

@@ -289,6 +289,10 @@ template <class Real>
 void SphSolver<Real>::set_cuts(const std::vector<int>& cuts) {
   wavetank::set_cuts(*values_, part_->parting(), cuts);
   upload_parameters(*values_);
+  const int slots = static_cast<int>(values_->at("window_slots"));
+  energy_rows_ = slots / static_cast<int>(values_->at(part_->parting().axis == 0 ? "window_size" : "slots_x"));
+  surroundings_.grid.resize(device_, slots, 1 + 2 * static_cast<int>(stride_));
+  part_->set_window(energy_rows_, slots);
   wrenches_.set_part(part_->parting(), static_cast<int>(values_->at("own_begin")), static_cast<int>(values_->at("own_end")));
 }
 

@@ -134,7 +134,8 @@ void SphSolver<Real>::reserve(int count) {
 }
 
 template <class Real>
-std::size_t SphSolver<Real>::memory_for(int particles) {
+std::size_t SphSolver<Real>::memory_for(const std::vector<int>& cuts, int particles) {
+  set_cuts(cuts);
   reserve(particles);
   return device_memory();
 }
@@ -187,16 +188,16 @@ void SphSolver<Real>::add_waiting() {
   waiting_ = NewParticles();
 }
 
-#define WAVETANK_POPULATION(Real)                                            \
-  template void SphSolver<Real>::set_count(int);                             \
-  template void SphSolver<Real>::reserve(int);                               \
-  template std::size_t SphSolver<Real>::memory_for(int);                     \
-  template void SphSolver<Real>::let_in(const NewParticles&);                \
-  template void SphSolver<Real>::set_drains(const std::vector<Drain>&);      \
-  template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&); \
-  template void SphSolver<Real>::check_nobody_came() const;                  \
-  template void SphSolver<Real>::sort_all();                                 \
-  template void SphSolver<Real>::sort_all_alone();                           \
+#define WAVETANK_POPULATION(Real)                                                 \
+  template void SphSolver<Real>::set_count(int);                                  \
+  template void SphSolver<Real>::reserve(int);                                    \
+  template std::size_t SphSolver<Real>::memory_for(const std::vector<int>&, int); \
+  template void SphSolver<Real>::let_in(const NewParticles&);                     \
+  template void SphSolver<Real>::set_drains(const std::vector<Drain>&);           \
+  template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&);      \
+  template void SphSolver<Real>::check_nobody_came() const;                       \
+  template void SphSolver<Real>::sort_all();                                      \
+  template void SphSolver<Real>::sort_all_alone();                                \
   template void SphSolver<Real>::add_waiting();
 WAVETANK_POPULATION(float)
 WAVETANK_POPULATION(double)

@@ -17,14 +17,8 @@ void append_values(parallel::Bytes& bytes, const T* values, std::size_t count) {
 }  // namespace
 
 template <class Real>
-WaterPart<Real>::WaterPart(const compute::Device& device, const Parting& parting, int rows, int slots, int tile)
-    : device_(device),
-      parting_(parting),
-      rows_(rows),
-      slots_(slots),
-      tile_(tile),
-      sent_(device, 3),
-      edge_runs_(device, 8 * static_cast<std::size_t>(rows)) {
+WaterPart<Real>::WaterPart(const compute::Device& device, const Parting& parting, int tile)
+    : device_(device), parting_(parting), tile_(tile), sent_(device, 3), edge_runs_(device, 8) {
   list_.set(device, {0});
   grow(1, 1);
 }
@@ -35,6 +29,14 @@ void WaterPart<Real>::reserve(Stride stride) {
   stride_ = stride;
   chosen_ = compute::Buffer<int>(device_, 3 * static_cast<std::size_t>(stride));
   chosen_room_ = static_cast<int>(stride);
+}
+
+template <class Real>
+void WaterPart<Real>::set_window(int rows, int slots) {
+  rows_ = rows;
+  slots_ = slots;
+  const std::size_t wanted = 8 * static_cast<std::size_t>(rows);
+  if (edge_runs_.size() < wanted) edge_runs_ = compute::Buffer<int>(device_, wanted);
 }
 
 template <class Real>

@@ -24,11 +24,13 @@ class WaterPart {
     std::vector<Real> values;  ///< component by component of the state
   };
 
-  /// `rows`: of the grid; `tile`: own particles of a tile.
-  WaterPart(const compute::Device& device, const Parting& parting, int rows, int slots, int tile);
+  /// `tile`: own particles of a tile.
+  WaterPart(const compute::Device& device, const Parting& parting, int tile);
 
   /// Room for so many particles.
   void reserve(Stride stride);
+  /// So many rows of the grid are in memory, and slots in all.
+  void set_window(int rows, int slots);
   /// `arguments`: all that kernels may be given; `starts`: of the slots.
   /// `rates_are_new`: γ is found after the sort, in the new order.
   void bind(const KernelMaker& make, const compute::Arguments& arguments, compute::Buffer<int>& starts, bool rates_are_new);
@@ -76,7 +78,7 @@ class WaterPart {
 
   compute::Device device_;
   Parting parting_;
-  int rows_, slots_, tile_;
+  int rows_ = 1, slots_ = 1, tile_;
   Stride stride_ = 0;
   int count_ = 0, room_ = 0, items_ = 0, first_ = 0, components_ = 0, chosen_room_ = 0, stills_ = 0;
   int tiles_ = 0, watched_ = 0;

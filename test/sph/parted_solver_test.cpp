@@ -251,6 +251,14 @@ TEST(PartedSolver, AlsoInAPeriodicTank) {
   EXPECT_TRUE(state_after(scene, 2, 50, options) == state_after(scene, 1, 50));
 }
 
+/// A ring of rows.
+TEST(PartedSolver, AlsoInATankThatIsPeriodicAcrossRows) {
+  Case scene = box_case(Vector3d(0.28, 2.4, 0.4), 0.2, 0.04);
+  scene.gravity = Vector3d(0, 3, -9.81);
+  scene.tank.periodic = {false, true, false};
+  expect_same_bits(scene, 25, {3});
+}
+
 std::vector<double> readings(Solver& solver, const PointSet& points) {
   std::vector<double> numbers;
   const auto add = [&numbers](const Vector3d& vector) { numbers.insert(numbers.end(), vector.data(), vector.data() + 3); };

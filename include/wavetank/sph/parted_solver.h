@@ -20,16 +20,15 @@ struct PartedSolverOptions {
   bool takes_turns = false;  ///< one part runs at a time
 };
 
-/// The water in as many slabs as there are devices, which may be one device several times. Steps, points, wrenches and energies are made by
-/// all of them; what comes before the first step, clouds, surfaces, lost volume and snapshots by one solver of all the water on the first
-/// device, to which the parts then bring their particles. The state is the same to the last bit for any number of parts on devices of one
-/// kind; it is not that of make_solver(), whose sums have another order. Throws Error, in one sentence, for a case that cannot be cut into
-/// parts.
+/// The water in as many slabs as there are devices, which may be one device several times; each does all that a solver does with its own
+/// particles. State and readings are the same to the last bit for any number of parts on devices of one kind, but for the errors that
+/// pack() reports; they are not those of make_solver(), whose sums have another order. download() and find_surface() have the particles in
+/// the order of their ids. Throws Error, in one sentence, for a case that cannot be cut into parts.
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& settled_case, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
                                            const PartedSolverOptions& options = {});
 
-/// The same with a part in each process of a team, by the one that has the first, which also has the solver of all the water. The others
+/// The same with a part in each process of a team, by the one that has the first. The others
 /// make theirs with it, by work_of_part, from the case as `scene_text` has it. Throws Error besides if one of them has made another of it;
 /// tells of those whose bits may be others, and of those that were given too few cores.
 std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::Device& device, const std::string& scene_text,

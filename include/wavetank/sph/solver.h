@@ -163,7 +163,7 @@ struct LostVolume {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of the particle that is most crowded, in the case's coordinates
 };
 
-/// Particle state on the host, in the device's order. Positions in the case's coordinates.
+/// Particle state on the host, in an order that find_surface() has too. Positions in the case's coordinates.
 struct FluidState {
   std::vector<std::uint32_t> id;
   std::vector<Eigen::Vector3d> position;  ///< m

@@ -21,23 +21,54 @@ INLINE int cell_index(__constant const parameters_t* p, real x, real y, real z) 
 // A particle's slot of its row.
 INLINE int slot_coordinate(__constant const parameters_t* p, real x) { return cell_coordinate(x, p->inverse_slot, p->slots_x); }
 
+#ifdef PARTED
+// A part has the slots, or rows, of its own particles and of its halo alone in memory: a window on the places along the axis of the parts, with an empty
+// place at either end, for which all count that lie beyond it. Places go on beyond the ends of a ring.
+INLINE int place_in_window(__constant const parameters_t* p, int place) {
+  int there = place - p->window_begin;
+  const int period = p->part_period;
+  if (period > 0) {
+    const int least = (p->window_size - period) / 2;  // what is beyond the window counts for the end that it is nearer to
+    there += there < least ? period : (there >= least + period ? -period : 0);
+  }
+  return min(max(there, 0), p->window_size - 1);
+}
+#define PLACE_HERE(p, axis, place) ((p)->part_axis == (axis) ? place_in_window(p, place) : (place))
+#define PLACES_HERE(p, axis, places) ((p)->part_axis == (axis) ? (p)->window_size : (places))
+#else
+#define PLACE_HERE(p, axis, place) (place)
+#define PLACES_HERE(p, axis, places) (places)
+#endif
+
 // Rows and slots lie in memory with x fastest, then y.
+#define SLOTS_OF_ROW(p) PLACES_HERE(p, 0, (p)->slots_x)
+#define SLOT_HERE(p, slot) PLACE_HERE(p, 0, slot)
+
 INLINE int row_index(__constant const parameters_t* p, int ry, int rz) {
 #if DIMENSIONS == 3
-  return rz * p->rows_y + ry;
+  return PLACE_HERE(p, 2, rz) * PLACES_HERE(p, 1, p->rows_y) + PLACE_HERE(p, 1, ry);
 #else
-  return rz;
+  return PLACE_HERE(p, 2, rz);
 #endif
 }
 
 INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) {
-  const int rz = cell_coordinate(z, p->inverse_row, p->rows_z);
+  int slot = slot_coordinate(p, x), rz = cell_coordinate(z, p->inverse_row, p->rows_z);
 #if DIMENSIONS == 3
-  const int ry = cell_coordinate(y, p->inverse_row, p->rows_y);
+  int ry = cell_coordinate(y, p->inverse_row, p->rows_y);
 #else
-  const int ry = 0;
+  int ry = 0;
 #endif
-  return row_index(p, ry, rz) * p->slots_x + slot_coordinate(p, x);
+#ifdef PARTED
+  // one that is nowhere is still to be in a place that is looked at
+  const int first = p->window_begin + 1, last = p->window_begin + p->window_size - 2;
+  const int here = place_in_window(p, p->part_axis == 0 ? slot : (p->part_axis == 1 ? ry : rz)) + p->window_begin;
+  const int inside = min(max(here, first), last);
+  slot = p->part_axis == 0 ? inside : slot;
+  ry = p->part_axis == 1 ? inside : ry;
+  rz = p->part_axis == 2 ? inside : rz;
+#endif
+  return row_index(p, ry, rz) * SLOTS_OF_ROW(p) + SLOT_HERE(p, slot);
 }
 
 #ifdef PARTED
@@ -61,5 +92,5 @@ INLINE bool is_astray(__constant const parameters_t* p, real x, real y, real z, 
 }
 
 // The list of tiles lies behind the starts of the slots: how many, then of each its first particle and that after its last.
-#define TILE_LIST(p) ((p)->slots_x * (p)->rows_z * (DIMENSIONS == 3 ? (p)->rows_y : 1) + 2)
+#define TILE_LIST(p) ((p)->window_slots + 2)
 #endif

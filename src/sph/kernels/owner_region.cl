@@ -12,8 +12,8 @@ INLINE owner_run_t run_of_owner(__constant const parameters_t* p, __global const
   const int run = in_region % region[REGION_RUNS], row = in_region / region[REGION_RUNS];
   const int first_slot = region[REGION_SLOT_X] + run * region[REGION_RUN];
   const int end_slot = min(first_slot + region[REGION_RUN], region[REGION_END_X]);
-  const int line = p->slots_x * row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
-  const owner_run_t particles = {region[REGION_OWNER], slot_start[line + first_slot], slot_start[line + end_slot]};
+  const int line = SLOTS_OF_ROW(p) * row_index(p, region[REGION_ROW_Y] + row % region[REGION_ROWS], region[REGION_ROW_Z] + row / region[REGION_ROWS]);
+  const owner_run_t particles = {region[REGION_OWNER], slot_start[line + SLOT_HERE(p, first_slot)], slot_start[line + SLOT_HERE(p, end_slot - 1) + 1]};
   return particles;
 }
 

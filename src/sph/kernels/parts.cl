@@ -47,12 +47,13 @@ __kernel void tell_own(__constant const parameters_t* p, int count, int slots, _
   state[FIELD_OWN * stride + i] = own ? R(1.0) : R(0.0);
 }
 
-// Of a row's particles, where the parts are cut across rows.
+// Of a row's particles, where the parts are cut across rows. In a ring it may lie beyond the tank's ends.
 INLINE int place_of_row(__constant const parameters_t* p, int row) {
 #if DIMENSIONS == 3
-  return p->part_axis == 1 ? row % p->rows_y : row / p->rows_y;
+  const int rows_y = PLACES_HERE(p, 1, p->rows_y);
+  return p->window_begin + (p->part_axis == 1 ? row % rows_y : row / rows_y);
 #else
-  return row;
+  return p->window_begin + row;
 #endif
 }
 
@@ -69,9 +70,10 @@ __kernel void list_tiles(__constant const parameters_t* p, int rows, int tile_ow
     if (place < p->own_begin || place >= p->own_end) return;
   }
   __global int* list = starts + TILE_LIST(p);
+  const int line = row * SLOTS_OF_ROW(p);
   for (int slot = begin; slot < end;) {
     const int next = min(end, 1 + ((slot - 1) / segment + 1) * segment);
-    const int first = starts[row * p->slots_x + slot], last = starts[row * p->slots_x + next];
+    const int first = starts[line + SLOT_HERE(p, slot)], last = starts[line + SLOT_HERE(p, next - 1) + 1];
     const int tiles = (last - first + tile_own - 1) / tile_own;
     const int place = tiles > 0 ? atomic_add(&list[0], tiles) : 0;
     for (int k = 0; k < tiles; ++k) {
@@ -90,16 +92,15 @@ __kernel void find_edges(__constant const parameters_t* p, int rows, __global co
                             {p->near_end > p->own_end ? p->own_end - p->halo_width : p->own_end, p->own_end},
                             {p->halo_begin, p->own_begin},
                             {p->own_end, p->halo_end}};
+  const int line = row * SLOTS_OF_ROW(p);
   for (int k = 0; k < 4; ++k) {
-    // beyond an end of a periodic tank, at the other end
-    const int shift = bounds[k][0] < 1 ? p->part_period : (bounds[k][1] > p->part_period + 1 ? -p->part_period : 0);
-    const int begin = bounds[k][0] + shift, end = bounds[k][1] + shift;
-    int first = row * p->slots_x + begin, last = row * p->slots_x + end;
-    if (p->part_axis != 0) {
-      const int place = place_of_row(p, row);
-      const bool meant = place >= begin && place < end;
-      first = row * p->slots_x;
-      last = meant ? first + p->slots_x : first;
+    const int begin = bounds[k][0], end = bounds[k][1];
+    int first = line, last = line;
+    if (p->part_axis == 0) {
+      first += SLOT_HERE(p, begin);
+      last = end > begin ? line + SLOT_HERE(p, end - 1) + 1 : first;
+    } else if (is_between(p, place_of_row(p, row), begin, end)) {
+      last += SLOTS_OF_ROW(p);
     }
     edges[8 * row + 2 * k] = slot_start[first];
     edges[8 * row + 2 * k + 1] = slot_start[last];

@@ -199,11 +199,11 @@ __kernel void energy_pieces(__constant const parameters_t* p, int rows, int piec
   const int places = EXACT(ENERGY_COUNT);
   const int summed = damping_count > 0 ? ENERGY_COUNT : (ACOUSTIC_DAMPER ? ENERGY_DAMPER + 1 : ENERGY_DAMPER);
   long totals[EXACT(ENERGY_COUNT)] = {0};
-  __global const int* starts = slot_start + (long)(item / pieces) * p->slots_x;
+  __global const int* starts = slot_start + (long)(item / pieces) * SLOTS_OF_ROW(p);
   for (int slot = 1 + item % pieces * segment; slot < p->slots_x - 1; slot += pieces * segment) {
-    const int begin = starts[slot], end = starts[min(slot + segment, p->slots_x - 1)];
+    const int begin = starts[SLOT_HERE(p, slot)], end = starts[SLOT_HERE(p, min(slot + segment, p->slots_x - 1) - 1) + 1];
 #ifdef PARTED
-    if (begin == end || state[FIELD_OWN * stride + begin] == R(0.0)) continue;
+    if (begin >= end || state[FIELD_OWN * stride + begin] == R(0.0)) continue;
 #else
     if (begin == end) continue;
 #endif

@@ -87,7 +87,8 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
   const int most = p->slots_x - 2;
   const int first = min(max((int)(span->x0 - half_length) + 1, 1), most), last = min(max((int)(span->x1 + half_length) + 1, 1), most);
   run_t run;
-  run.begin = slot_start[row * p->slots_x + first];
-  run.end = left > R(0.0) ? slot_start[row * p->slots_x + last + 1] : run.begin;
+  __global const int* starts = slot_start + row * SLOTS_OF_ROW(p);
+  run.begin = starts[SLOT_HERE(p, first)];
+  run.end = left > R(0.0) ? starts[SLOT_HERE(p, last) + 1] : run.begin;
   return run;
 }
