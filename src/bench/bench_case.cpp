@@ -210,6 +210,8 @@ Case make_case(const BenchCase& bench_case, const std::string& device) {
   return result;
 }
 
+double water_length_in_spacings(const BenchCase& bench_case) { return (tank_length - water_begin) / bench_case.spacing; }
+
 std::size_t particles_at(int dimensions, double spacing) {
   const auto rows = [spacing](double length) { return static_cast<std::size_t>(std::floor(length / spacing + 0.5 + 1e-6)); };
   return rows(tank_length - water_begin) * rows(water_depth) * (dimensions == 3 ? rows(tank_width) : 1);

@@ -43,5 +43,7 @@ const BenchCase& case_named(const std::string& name);
 Case make_case(const BenchCase& bench_case, const std::string& device);
 /// Particles that the water's box takes at a spacing of `spacing` m.
 std::size_t particles_at(int dimensions, double spacing);
+/// Of the water's box along the tank.
+double water_length_in_spacings(const BenchCase& bench_case);
 
 }  // namespace wavetank::bench

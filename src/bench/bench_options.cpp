@@ -33,6 +33,10 @@ BenchOptions read_bench_options(int argc, char** argv) {
       ->type_name("FILE");
   app.add_flag("--short", options.short_set,
                "100k and 1M in 3-D in place of the usual set, for a machine that is at hand for minutes only");
+  app.add_option("--parts", options.parts,
+                 "of one case, 100k in 3-D unless --filter leaves another: its step in so many parts on one device, beside a model's; 2,4")
+      ->delimiter(',')
+      ->type_name("N,...");
   app.add_flag("--no-cold-build", no_cold_build, "leave out how long the kernels take to build with empty caches");
   app.add_flag("--list", list, "print the names of all cases, or of those that --filter leaves");
   app.add_flag("--version", show_version, "print the version");
@@ -55,7 +59,11 @@ BenchOptions read_bench_options(int argc, char** argv) {
   if (options.repeats < 1) throw Error("--repeat " + std::to_string(options.repeats) + " is not a number of measurements, at least 1");
   if (app.count("--json") > 0 && options.json.empty()) throw Error("--json needs the name of a file");
   if (options.short_set && !options.filters.empty()) throw Error("--short and --filter are two choices of cases; give one of them");
+  if (!options.parts.empty() && (options.short_set || !options.json.empty())) throw Error("--parts goes with neither --short nor --json");
+  for (const int count : options.parts)
+    if (count < 2 || count > 1000) throw Error("--parts must be from 2 to 1000, not " + std::to_string(count));
   options.cold_build = !no_cold_build;
+  if (!options.parts.empty()) options.action = BenchOptions::Action::parts;
   if (list) options.action = BenchOptions::Action::list;
   if (!options.start_up_of.empty()) options.action = BenchOptions::Action::start_up;
   return options;

@@ -10,7 +10,7 @@ constexpr const char* start_up_option = "--start-up-of";
 
 /// What wavetank_bench was asked for.
 struct BenchOptions {
-  enum class Action { run, list, start_up, nothing };
+  enum class Action { run, parts, list, start_up, nothing };
   Action action = Action::run;
   std::vector<std::string> filters;
   std::string device = "auto";
@@ -18,6 +18,7 @@ struct BenchOptions {
   int repeats = 5;
   bool cold_build = true;
   bool short_set = false;
+  std::vector<int> parts;  ///< numbers of parts that steps are measured in
   std::string start_up_of;
 };
 

@@ -6,6 +6,7 @@
 #include "bench_options.h"
 #include "bench_run.h"
 #include "own_command.h"
+#include "parts_model.h"
 #include "wavetank/common/ending_signals.h"
 #include "wavetank/common/log.h"
 #include "wavetank/common/standard_output.h"
@@ -49,6 +50,18 @@ int run(const BenchOptions& options, int argc) {
   return report.interrupted ? exit_signal + caught_signal : 0;
 }
 
+int run_parts(const BenchOptions& options) {
+  const std::vector<BenchCase> cases = options.filters.empty() ? std::vector<BenchCase>{short_cases()[0]} : chosen_cases(options.filters);
+  if (cases.size() != 1)
+    throw Error("--parts is of one case, but --filter leaves " + std::to_string(cases.size()) + " (--list names them)");
+  const EndingSignals signals([](int number) { caught_signal = number; });
+  const PartsReport report =
+      measure_parts(cases[0], compute::choose_device(options.device), options.parts, options.repeats, [] { return caught_signal != 0; });
+  std::printf("%s", table_of(report).c_str());
+  finish_printing();
+  return caught_signal != 0 ? exit_signal + caught_signal : 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,6 +74,8 @@ int main(int argc, char** argv) {
         list(options);
         finish_printing();
         return 0;
+      case BenchOptions::Action::parts:
+        return run_parts(options);
       case BenchOptions::Action::start_up:
         print_start_up(options);
         finish_printing();

@@ -326,8 +326,9 @@ void BagRun::report() const {
   std::printf("\nparticle-steps/s  %.3g\n", seconds_ > 0 ? steps * static_cast<double>(last_.particles) / seconds_ : 0.0);
   std::printf("guard hits        %llu\n", static_cast<unsigned long long>(last_.guard_hits));
   if (last_.parts > 1)
-    std::printf("parts             %d, the largest with %.2f times the mean, cut %llu times\n", last_.parts, last_.imbalance,
-                static_cast<unsigned long long>(last_.cuts));
+    std::printf(
+        "parts             %d, the largest with %.2f times the mean, cut %llu times; exchanges took %.0f %% of the first one's time\n",
+        last_.parts, last_.imbalance, static_cast<unsigned long long>(last_.cuts), 100 * last_.exchange_share);
   if (bag_is_whole_) std::printf("bag               %s\n", visible_text(recorder_->path(), PATH_MAX).c_str());
   if (vtk_ && vtk_->has_frames()) std::printf("for ParaView      %s\n", visible_text(vtk_->path(), PATH_MAX).c_str());
   if (!options_.save.empty() && violation_.empty() && cut_short_.empty())

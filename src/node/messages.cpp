@@ -243,6 +243,7 @@ SolverStatus status_message(const Case& checked, const SolverState& solver, cons
   message.parts = static_cast<std::uint32_t>(solver.parts);
   message.imbalance = solver.imbalance;
   message.cuts = solver.cuts;
+  message.exchange_share = solver.exchange_share;
   return message;
 }
 

@@ -193,7 +193,7 @@ std::unique_ptr<Solver> Simulation::Parts::solver_on(const std::vector<compute::
   const std::vector<Vector3d> centres = reference_points(world);
   if (options.team != nullptr)
     return make_parted_solver(*options.team, those[0], write_case(scene), scene, layout, discretisation, centres);
-  if (those.size() == 1) return make_solver(those[0], scene, layout, discretisation, centres);
+  if (those.size() == 1 && !options.in_parts) return make_solver(those[0], scene, layout, discretisation, centres);
   return make_parted_solver(those, scene, layout, discretisation, centres);
 }
 
@@ -389,6 +389,9 @@ SolverState Simulation::state() const {
   state.parts = in_parts.count;
   state.imbalance = in_parts.imbalance;
   state.cuts = in_parts.cuts;
+  state.exchange_share = in_parts.exchange_share;
+  state.messages = in_parts.messages;
+  state.message_bytes = in_parts.bytes;
   return state;
 }
 

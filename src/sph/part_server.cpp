@@ -2,7 +2,6 @@
 
 #include <sched.h>
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -99,15 +98,6 @@ std::vector<ImposedZone> zones_from(Unpacked& from) {
     zone.is_free = from.values<char>();
   }
   return zones;
-}
-
-/// Of all these particles, in the order of their ids, the part and the place in it.
-std::vector<std::pair<std::size_t, std::size_t>> by_id(const std::vector<std::vector<std::uint32_t>>& ids) {
-  std::vector<std::pair<std::size_t, std::size_t>> order;
-  for (std::size_t part = 0; part < ids.size(); ++part)
-    for (std::size_t k = 0; k < ids[part].size(); ++k) order.emplace_back(part, k);
-  std::sort(order.begin(), order.end(), [&ids](const auto& a, const auto& b) { return ids[a.first][a.second] < ids[b.first][b.second]; });
-  return order;
 }
 
 /// Bodies are with the first part, and walls of all parts go with them.
@@ -218,7 +208,7 @@ class PartServerOf final : public PartServer {
         return packed(solver_.download());
       case PartOrder::surface: {
         const FluidSurface surface = solver_.find_surface();
-        return packed(solver_.download().id, surface);
+        return packed(solver_.own_ids(), surface);
       }
       case PartOrder::crowding:
         return packed(solver_.crowding());
@@ -240,13 +230,14 @@ class PartServerOf final : public PartServer {
   void check_state(const Bytes& state) const override { solver_.check_state(state); }
   std::vector<std::int64_t> particles_in_blocks(const Bytes& state) const override { return solver_.particles_in_blocks(state); }
   std::vector<std::int64_t> particles_in_places(const Bytes& state) const override { return solver_.particles_in_places(state); }
-  std::size_t memory_for(const std::vector<int>& cuts, int particles) override { return solver_.memory_for(cuts, particles); }
+  std::size_t memory_for(const std::vector<int>& cuts, const Bytes& state) override { return solver_.memory_for(cuts, state); }
   Bytes joined(const std::vector<Bytes>& parts) const override { return solver_.joined(parts); }
   std::optional<ThinWall> thinnest_wall() const override { return solver_.thinnest_wall(); }
   const StepReport& report() const override { return report_; }
   const PackingReport& packing() const override { return packing_; }
   double time_step() const override { return time_step_; }
   double imbalance() const override { return solver_.imbalance(); }
+  const Exchanged& exchanged() const override { return solver_.exchanged(); }
   std::size_t particles() const override { return solver_.particles_of_all(); }
   void lead(WallMover* mover) override { leading_ = mover; }
   void tell(const std::function<void(double)>& progress) override { progress_ = progress; }

@@ -9,6 +9,7 @@
 
 #include "crowding.h"
 #include "parting.h"
+#include "water_part.h"
 #include "wavetank/compute/device.h"
 #include "wavetank/geometry/layout.h"
 #include "wavetank/parallel/group.h"
@@ -54,7 +55,7 @@ struct FirstOrder {
 };
 parallel::Bytes packed(const FirstOrder& order);
 
-/// What the process that has all the water checks of a part.
+/// What the first checks of a part.
 struct PartFacts {
   std::uint64_t digest = 0;  ///< of what its kernels are made of and told, and of the walls
   std::string device;        ///< in words
@@ -101,14 +102,15 @@ class PartServer {
   virtual std::vector<std::int64_t> particles_in_places(const parallel::Bytes& state) const = 0;
   virtual parallel::Bytes joined(const std::vector<parallel::Bytes>& parts) const = 0;
   virtual std::optional<ThinWall> thinnest_wall() const = 0;
-  virtual std::size_t memory_for(const std::vector<int>& cuts, int particles) = 0;
+  virtual std::size_t memory_for(const std::vector<int>& cuts, const parallel::Bytes& state) = 0;
   /// Of the last step, or the start, the same of all parts.
   virtual const StepReport& report() const = 0;
   virtual const PackingReport& packing() const = 0;
   /// Of the next step, s, after an order to shorten it.
   virtual double time_step() const = 0;
-  /// As SphSolver has it.
+  /// As SphSolver has these.
   virtual double imbalance() const = 0;
+  virtual const Exchanged& exchanged() const = 0;
   /// Of all the water.
   virtual std::size_t particles() const = 0;
   /// Of the part that has bodies: who moves them in the next step.

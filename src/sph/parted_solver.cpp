@@ -1,6 +1,7 @@
 #include "wavetank/sph/parted_solver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -112,6 +113,33 @@ int least_blocks(const Parting& parting, int parts, int halo_less) {
   return (parting.halo + halo_less + way + parting.block - 1) / parting.block;
 }
 
+/// Throws Error if the water is too short for so many parts. `weights`: particles of each block; `is_open`: water may come in.
+std::vector<int> cuts_for(std::vector<std::int64_t> weights, const Parting& parting, int parts, bool is_open,
+                          const PartedSolverOptions& options) {
+  // where water comes in, there may be none yet: empty blocks count for something
+  for (std::int64_t& weight : weights) weight = is_open ? 1000 * weight + 1 : weight;
+  const int least = least_blocks(parting, parts, options.halo_less);
+  std::vector<int> cuts = parallel::cut_into_slabs(weights, parts, least);
+  if (options.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options.uneven, least, cuts[2] - least);
+  return cuts;
+}
+
+/// A part alone, as one of so many: nobody hears it, and it hears nothing.
+class OneOfMany final : public parallel::Group {
+ public:
+  OneOfMany(int size, int rank) : size_(size), rank_(rank) {}
+  int size() const override { return size_; }
+  int rank() const override { return rank_; }
+  void send(int, Bytes) override {}
+  Bytes receive(int) override { return {}; }
+  std::vector<double> greatest(const std::vector<double>& values) override { return values; }
+  std::vector<std::int64_t> sums(const std::vector<std::int64_t>& values) override { return values; }
+  std::vector<std::int64_t> least(const std::vector<std::int64_t>& values) override { return values; }
+
+ private:
+  int size_, rank_;
+};
+
 class PartedSolver final : public Solver {
  public:
   /// Parts in this process, one a device.
@@ -174,7 +202,9 @@ class PartedSolver final : public Solver {
     for (const Bytes& order : std::exchange(coming_, {})) ask(order);
     parts_[0]->lead(mover);
     const std::vector<int> coupled = mover != nullptr ? mover->coupled() : std::vector<int>();
+    const auto begin = std::chrono::steady_clock::now();
     ask(Packed().value(PartOrder::advance).value<char>(mover != nullptr ? 1 : 0).values(coupled));
+    seconds_of_steps_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (parts_[0]->motions()) motions_ = parts_[0]->motions();
     ++steps_since_cut_;
     note_load();
@@ -199,7 +229,18 @@ class PartedSolver final : public Solver {
     return parts_[0]->time_step();
   }
   std::size_t particle_count() const override { return parts_[0]->particles(); }
-  PartsState parts() const override { return {team_.size(), steps_since_cut_ > 0 ? parts_[0]->imbalance() : 1.0, cuts_}; }
+  PartsState parts() const override {
+    PartsState state;
+    state.count = team_.size();
+    state.cuts = cuts_;
+    if (steps_since_cut_ == 0) return state;
+    state.imbalance = parts_[0]->imbalance();
+    const Exchanged& now = parts_[0]->exchanged();
+    if (seconds_of_steps_ > 0) state.exchange_share = (now.seconds - exchanged_when_cut_.seconds) / seconds_of_steps_;
+    state.messages = static_cast<double>(now.messages - exchanged_when_cut_.messages) / steps_since_cut_;
+    state.bytes = static_cast<double>(now.bytes - exchanged_when_cut_.bytes) / steps_since_cut_;
+    return state;
+  }
   void let_in(const NewParticles& particles) override {
     check_new_particles(particles);
     if (!std::exchange(is_told_to_be_open_, true)) ask(PartOrder::open);
@@ -264,9 +305,10 @@ class PartedSolver final : public Solver {
   std::vector<char> save() const override { return parts_[0]->joined(ask(PartOrder::save)); }
   void restore(const std::vector<char>& bytes) override {
     parts_[0]->check_state(bytes);
+    const std::vector<int> cuts = cuts_for_or_present(bytes);
     motions_.reset();  // they are of another time, and told anew by whom that concerns
     coming_.clear();
-    cut(bytes, cuts_for(bytes));
+    cut(bytes, cuts);
   }
   std::size_t device_memory() const override {
     std::size_t bytes = 0;
@@ -297,9 +339,13 @@ class PartedSolver final : public Solver {
   /// What comes before the first step.
   void prepare(Packed& order, const std::function<void(double)>& progress) {
     if (!coming_.empty()) throw Error("a case was to be started, settled or packed when particles had come in already");
-    parts_[0]->tell(progress);
+    const struct Teller {
+      Teller(PartServer& part, const std::function<void(double)>& progress) : first(part) { first.tell(progress); }
+      ~Teller() { first.tell({}); }
+      PartServer& first;
+    } teller(*parts_[0], progress);
     ask(order);
-    parts_[0]->tell({});
+    count_steps_anew();
   }
 
   /// The parts know them from the steps that they make; what is restored has them told.
@@ -309,8 +355,6 @@ class PartedSolver final : public Solver {
     add_motions(order.value(PartOrder::walls), *motions_);
     ask(order);
   }
-
-  int least_blocks() const { return wavetank::least_blocks(parting_, team_.size(), options_.halo_less); }
 
   /// Of one kind, or at least with the same grid.
   void check_devices() const {
@@ -324,32 +368,38 @@ class PartedSolver final : public Solver {
 
   /// Throws if the water is too short for so many parts.
   std::vector<int> cuts_for(const Bytes& state) const {
-    std::vector<std::int64_t> weights = parts_[0]->particles_in_blocks(state);
-    // where water comes in, there may be none yet: empty blocks count for something
-    for (std::int64_t& weight : weights) weight = is_open_ ? 1000 * weight + 1 : weight;
-    std::vector<int> cuts = parallel::cut_into_slabs(weights, team_.size(), least_blocks());
-    if (options_.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options_.uneven, least_blocks(), cuts[2] - least_blocks());
-    return cuts;
+    return wavetank::cuts_for(parts_[0]->particles_in_blocks(state), parting_, team_.size(), is_open_, options_);
+  }
+  /// Where it has drawn together: the cuts that there are do still.
+  std::vector<int> cuts_for_or_present(const Bytes& state) const {
+    try {
+      return cuts_for(state);
+    } catch (const Error&) {
+      return present_cuts_;
+    }
   }
 
-  /// The water as it is, anew.
+  /// The water as it is, anew, unless that is no other cut.
   void cut() {
     const Bytes state = save();
-    std::vector<int> cuts;
-    try {
-      cuts = cuts_for(state);
-    } catch (const Error&) {  // it has drawn together: the cuts that there are do still
-      lost_steps_ = 0;
-      return;
-    }
-    cut(state, cuts);
+    const std::vector<int> cuts = cuts_for_or_present(state);
+    lost_steps_ = 0;
+    load_when_cut_ = parts_[0]->imbalance();  // that is as even as it gets
+    if (cuts != present_cuts_ || options_.cut_every > 0) cut(state, cuts);
   }
   void cut(const Bytes& state, const std::vector<int>& cuts) {
     ask(Packed().value(PartOrder::cut).values(cuts).values(state));
     tell_motions();
+    present_cuts_ = cuts;
     ++cuts_;
-    steps_since_cut_ = 0;
+    count_steps_anew();
     lost_steps_ = 0;
+  }
+
+  void count_steps_anew() {
+    steps_since_cut_ = 0;
+    seconds_of_steps_ = 0;
+    exchanged_when_cut_ = parts_[0]->exchanged();
   }
 
   /// By how much the step was longer than one of even parts, in steps.
@@ -377,7 +427,10 @@ class PartedSolver final : public Solver {
   std::shared_ptr<std::vector<int>> dropped_points_ = std::make_shared<std::vector<int>>();  ///< that parts may still have
   std::optional<WallMotions> motions_;                                                       ///< of walls that have moved, now
   int steps_since_cut_ = 0;
+  double seconds_of_steps_ = 0;  ///< likewise
+  Exchanged exchanged_when_cut_;
   std::uint64_t cuts_ = 0;
+  std::vector<int> present_cuts_;
   double lost_steps_ = 0, load_when_cut_ = 1;
 };
 
@@ -385,34 +438,43 @@ class PartedSolver final : public Solver {
 
 PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& scene, const Layout& layout,
                         const Discretisation& discretisation) {
-  parallel::ThreadGroup group(parts);
   Parting parting = parting_for(scene, layout, discretisation, device.info(), {});
-  parting.group = &group.member(0);
   const std::vector<Eigen::Vector3d> centres(1 + scene.bodies.size(), Eigen::Vector3d::Zero());
-  std::unique_ptr<PartServer> part = make_part_server(device, parting, scene, layout, discretisation, centres);
-  const Bytes state = part->laid_out_state(layout);
-  const std::vector<int> cuts = parallel::cut_into_slabs(part->particles_in_blocks(state), parts, least_blocks(parting, parts, 0));
-  const std::vector<std::int64_t> in_places = part->particles_in_places(state);
-  const auto between = [&](int begin, int end) {
-    std::int64_t count = 0;
-    for (int k = begin; k < end; ++k) count += in_places[parting.in_ring(k, parting.wraps())];  // none in place 0
-    return static_cast<std::size_t>(count);
+  const auto part_of = [&](parallel::Group& group) {
+    parting.group = &group;
+    return make_part_server(device, parting, scene, layout, discretisation, centres);
   };
+  OneOfMany first(parts, 0);
+  std::unique_ptr<PartServer> part = part_of(first);
+  const Bytes state = part->laid_out_state(layout);
+  const std::vector<int> cuts = cuts_for(part->particles_in_blocks(state), parting, parts, !layout.openings.empty(), {});
+  const std::vector<std::int64_t> in_places = part->particles_in_places(state);
   PartsNeed need;
   need.parts = parts;
   int largest = 0;
   for (int k = 0; k < parts; ++k) {
     const int begin = parting.begin_of(cuts[k]), end = parting.begin_of(cuts[k + 1]);
-    const std::size_t own = between(begin, end), all = parts == 1 ? own : between(begin - parting.halo, end + parting.halo);
-    if (all < need.own + need.others) continue;
+    std::vector<char> has(in_places.size(), 0);  // a small ring may bring it the same places from either side
+    for (int place = begin - parting.halo; parts > 1 && place < end + parting.halo; ++place)
+      has[parting.in_ring(place, parting.wraps())] = 1;
+    std::size_t own = 0, others = 0;
+    for (int place = 1; place <= parting.places; ++place) {
+      const auto count = static_cast<std::size_t>(in_places[place]);
+      if (place >= begin && place < end)
+        own += count;
+      else if (has[place] != 0)
+        others += count;
+    }
+    need.all_others += others;
+    if (own + others < need.own + need.others) continue;
     largest = k;
     need.own = own;
-    need.others = all - own;
+    need.others = others;
   }
-  parting.group = &group.member(largest);
   part.reset();
-  part = make_part_server(device, parting, scene, layout, discretisation, centres);
-  need.memory = static_cast<double>(part->memory_for(cuts, static_cast<int>(need.own + need.others)));
+  OneOfMany last(parts, largest);
+  part = part_of(last);
+  need.memory = static_cast<double>(part->memory_for(cuts, state));
   return need;
 }
 

@@ -79,6 +79,15 @@ std::vector<char> places_had(const ParameterBlock& values, const Parting& partin
   return has;
 }
 
+std::vector<PlaceInPart> by_id(const std::vector<std::vector<std::uint32_t>>& ids) {
+  std::vector<PlaceInPart> order;
+  for (std::size_t part = 0; part < ids.size(); ++part)
+    for (std::size_t k = 0; k < ids[part].size(); ++k) order.push_back({part, k});
+  std::sort(order.begin(), order.end(),
+            [&ids](const PlaceInPart& a, const PlaceInPart& b) { return ids[a.part][a.place] < ids[b.part][b.place]; });
+  return order;
+}
+
 std::uint64_t digest_of(std::string_view bytes, std::uint64_t before) {
   for (const char byte : bytes) before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3;  // Fowler, Noll and Vo's
   return before;

@@ -54,6 +54,12 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
 /// Of each place, 1 if the part whose numbers these are has its particles, as its own or in its halo.
 std::vector<char> places_had(const ParameterBlock& values, const Parting& parting);
 
+/// Of all these particles, in the order of their ids, where they are. `ids`: of each part's.
+struct PlaceInPart {
+  std::size_t part = 0, place = 0;
+};
+std::vector<PlaceInPart> by_id(const std::vector<std::vector<std::uint32_t>>& ids);
+
 /// To tell whether two processes have the same: of the bytes, after those of which `before` is.
 std::uint64_t digest_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325);
 

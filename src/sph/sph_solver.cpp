@@ -215,18 +215,21 @@ template <class Real>
 void SphSolver<Real>::upload_particles(const Layout& layout) {
   std::vector<Real> state(state_.size(), Real(0));
   std::vector<std::uint32_t> id(stride_);
-  Real* const mass = component(state, "mass");
-  Real* const volume = component(state, "volume");
   for (int i = 0; i < count_; ++i) {
     id[i] = static_cast<std::uint32_t>(i);
-    set_place(state, stride_, i, layout.particles[i]);
-    mass[i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
-    volume[i] = static_cast<Real>(layout.volumes[i]);
+    put_laid_out(state, stride_, i, layout);
   }
   state_.upload(state);
   id_.upload(id);
   kernels_.derive.launch(count_);
   sort();
+}
+
+template <class Real>
+void SphSolver<Real>::put_laid_out(std::vector<Real>& state, Stride stride, int i, const Layout& layout) const {
+  set_place(state, stride, i, layout.particles[i]);
+  state[fields_.at(ParticleArray::state, "mass") * stride + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
+  state[fields_.at(ParticleArray::state, "volume") * stride + i] = static_cast<Real>(layout.volumes[i]);
 }
 
 template <class Real>

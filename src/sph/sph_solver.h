@@ -73,14 +73,18 @@ class SphSolver final : public Solver, private StepEngine {
   /// Of a state, its particles by the blocks that Parting has; and by its places, the first of which is 1.
   std::vector<std::int64_t> particles_in_blocks(const std::vector<char>& bytes) const;
   std::vector<std::int64_t> particles_in_places(const std::vector<char>& bytes) const;
-  /// Bytes on the device of the part between these cuts with room for so many particles.
-  std::size_t memory_for(const std::vector<int>& cuts, int particles);
+  /// Bytes on the device of the part between these cuts, of this state of all the water, as they are after a step. Such a part is good for
+  /// nothing else.
+  std::size_t memory_for(const std::vector<int>& cuts, const std::vector<char>& state);
+  /// In the order of download().
+  std::vector<std::uint32_t> own_ids() const;
   /// The next restore() takes of a state of all the water what lies between these cuts, and the halo.
   void set_cuts(const std::vector<int>& cuts);
   /// What the parts have saved of their own particles, as one would save it that had them all.
   std::vector<char> joined(const std::vector<std::vector<char>>& parts) const;
   /// Of all the water, wherever it is cut.
   std::size_t particles_of_all() const { return static_cast<std::size_t>(part_->all); }
+  const Exchanged& exchanged() const { return part_->exchanged(); }
   double time_step() const { return step_; }
   /// Particles may come and go: snapshots of any number of them are taken.
   void open() { open_ = true; }
@@ -110,6 +114,8 @@ class SphSolver final : public Solver, private StepEngine {
   Eigen::Vector3d place_of(const std::vector<Real>& state, int i) const;
   Eigen::Vector3d velocity_of(const std::vector<Real>& state, int i) const;
   void upload_particles(const Layout& layout);
+  /// The place, mass and volume of particle i.
+  void put_laid_out(std::vector<Real>& state, Stride stride, int i, const Layout& layout) const;
   void set_count(int count);
   /// Room for so many particles at least.
   void reserve(int count);

@@ -307,6 +307,19 @@ double SphSolver<Real>::sum_of_parts(double own) const {
   return sum;
 }
 
+/// With what steps make when they are first made; of others it hears nothing, so that the numbers are nobody's.
+template <class Real>
+std::size_t SphSolver<Real>::memory_for(const std::vector<int>& cuts, const std::vector<char>& state) {
+  set_cuts(cuts);
+  restore(state);
+  if (shifts()) find_shifts();
+  if (case_.numerics.integrator == Integrator::symplectic)
+    find_compression_rates(Slot::now);
+  else
+    find_rates(Slot::now);
+  return device_memory();
+}
+
 template <class Real>
 double SphSolver<Real>::imbalance() const {
   const Parting& parting = part_->parting();
@@ -341,6 +354,7 @@ std::uint64_t SphSolver<Real>::digest() const {
   template std::vector<int> SphSolver<Real>::places_in_parts(const std::vector<Real>&) const;          \
   template void SphSolver<Real>::set_cuts(const std::vector<int>&);                                    \
   template double SphSolver<Real>::sum_of_parts(double) const;                                         \
+  template std::size_t SphSolver<Real>::memory_for(const std::vector<int>&, const std::vector<char>&); \
   template double SphSolver<Real>::imbalance() const;                                                  \
   template std::uint64_t SphSolver<Real>::digest() const;
 WAVETANK_PARTS(float)

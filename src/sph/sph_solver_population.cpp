@@ -108,7 +108,7 @@ void SphSolver<Real>::sort_all_alone() {
 template <class Real>
 void SphSolver<Real>::reserve(int count) {
   if (stride_for(count) <= stride_) return;
-  const Stride stride = stride_for(count + count / 4);
+  const Stride stride = stride_for(count + count / (part_ ? 32 : 4));  // a part's number goes up and down by little
   const auto chunks = static_cast<std::size_t>(chunks_of(static_cast<int>(stride)));
   const auto groups = static_cast<std::size_t>(chunks_of(static_cast<int>(chunks)));
   Buffer* const arrays[] = {&state_, &rates_, &gradient_, &around_, &half_, &sum_};
@@ -131,13 +131,6 @@ void SphSolver<Real>::reserve(int count) {
   group_alarms_ = std::move(group_alarms);
   stride_ = surroundings_.stride = stride;
   if (part_) part_->reserve(stride);
-}
-
-template <class Real>
-std::size_t SphSolver<Real>::memory_for(const std::vector<int>& cuts, int particles) {
-  set_cuts(cuts);
-  reserve(particles);
-  return device_memory();
 }
 
 template <class Real>
@@ -188,16 +181,15 @@ void SphSolver<Real>::add_waiting() {
   waiting_ = NewParticles();
 }
 
-#define WAVETANK_POPULATION(Real)                                                 \
-  template void SphSolver<Real>::set_count(int);                                  \
-  template void SphSolver<Real>::reserve(int);                                    \
-  template std::size_t SphSolver<Real>::memory_for(const std::vector<int>&, int); \
-  template void SphSolver<Real>::let_in(const NewParticles&);                     \
-  template void SphSolver<Real>::set_drains(const std::vector<Drain>&);           \
-  template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&);      \
-  template void SphSolver<Real>::check_nobody_came() const;                       \
-  template void SphSolver<Real>::sort_all();                                      \
-  template void SphSolver<Real>::sort_all_alone();                                \
+#define WAVETANK_POPULATION(Real)                                            \
+  template void SphSolver<Real>::set_count(int);                             \
+  template void SphSolver<Real>::reserve(int);                               \
+  template void SphSolver<Real>::let_in(const NewParticles&);                \
+  template void SphSolver<Real>::set_drains(const std::vector<Drain>&);      \
+  template void SphSolver<Real>::set_zones(const std::vector<ImposedZone>&); \
+  template void SphSolver<Real>::check_nobody_came() const;                  \
+  template void SphSolver<Real>::sort_all();                                 \
+  template void SphSolver<Real>::sort_all_alone();                           \
   template void SphSolver<Real>::add_waiting();
 WAVETANK_POPULATION(float)
 WAVETANK_POPULATION(double)

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -96,14 +95,18 @@ std::vector<int> SphSolver<Real>::own_particles(const std::vector<Real>& state) 
 }
 
 template <class Real>
+std::vector<std::uint32_t> SphSolver<Real>::own_ids() const {
+  const std::vector<std::uint32_t> id = id_.download(count_);
+  std::vector<std::uint32_t> own;
+  for (const int i : own_particles(state_.download())) own.push_back(id[i]);
+  return own;
+}
+
+template <class Real>
 std::vector<char> SphSolver<Real>::laid_out_state(const Layout& layout) const {
   const auto count = static_cast<Stride>(layout.particles.size());
   std::vector<Real> state(fields_.count(ParticleArray::state) * static_cast<std::size_t>(count), Real(0));
-  for (Stride i = 0; i < count; ++i) {
-    set_place(state, count, static_cast<int>(i), layout.particles[i]);
-    state[fields_.at(ParticleArray::state, "mass") * count + i] = static_cast<Real>(case_.fluid.density * layout.volumes[i]);
-    state[fields_.at(ParticleArray::state, "volume") * count + i] = static_cast<Real>(layout.volumes[i]);
-  }
+  for (Stride i = 0; i < count; ++i) put_laid_out(state, count, static_cast<int>(i), layout);
   std::vector<std::uint32_t> id(count);
   std::iota(id.begin(), id.end(), 0);
   SnapshotBlocks blocks;
@@ -237,17 +240,15 @@ template <class Real>
 std::vector<char> SphSolver<Real>::joined(const std::vector<std::vector<char>>& parts) const {
   std::vector<SnapshotBlocks> given;
   std::vector<std::vector<std::uint32_t>> ids;
-  std::vector<std::array<std::size_t, 2>> order;  // part, and place in it
   for (const std::vector<char>& bytes : parts) {
     given.emplace_back(bytes);
     ids.push_back(given.back().get<std::uint32_t>(id_block));
-    for (std::size_t k = 0; k < ids.back().size(); ++k) order.push_back({ids.size() - 1, k});
   }
-  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return ids[a[0]][a[1]] < ids[b[0]][b[1]]; });
+  const std::vector<PlaceInPart> order = by_id(ids);
   const auto in_order = [&order](const auto& values) {
     auto all = values[0];
     all.resize(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) all[k] = values[order[k][0]][order[k][1]];
+    for (std::size_t k = 0; k < order.size(); ++k) all[k] = values[order[k].part][order[k].place];
     return all;
   };
   SnapshotBlocks blocks;
@@ -280,6 +281,7 @@ void SphSolver<Real>::upload_by_id(Buffer& array, int components, const std::vec
   template std::vector<int> SphSolver<Real>::own_particles(const std::vector<Real>&) const;                \
   template auto SphSolver<Real>::read_state(const std::vector<char>&) const->ReadState;                    \
   template void SphSolver<Real>::restore(const std::vector<char>&);                                        \
+  template std::vector<std::uint32_t> SphSolver<Real>::own_ids() const;                                    \
   template std::vector<char> SphSolver<Real>::laid_out_state(const Layout&) const;                         \
   template std::vector<std::int64_t> SphSolver<Real>::particles_in_places(const std::vector<char>&) const; \
   template std::vector<std::int64_t> SphSolver<Real>::particles_in_blocks(const std::vector<char>&) const; \

@@ -88,7 +88,7 @@ StepReport SphSolver<Real>::start_from_state() {
     find_rates(Slot::now);  // by the one kernel that the steps need as well
   }
   guarded_.clear();
-  if (part_) part_->still_others(count_, 0);  // the report is of own particles
+  if (part_) part_->still_others(count_, part_->watched() - count_);  // the report is of own particles
   const StepReport report = watch();
   // a step moves a part's halo with it
   refresh("acceleration");
@@ -98,6 +98,7 @@ StepReport SphSolver<Real>::start_from_state() {
 
 template <class Real>
 double SphSolver<Real>::packing_error() {
+  if (packing_parts_.size() < static_cast<std::size_t>(chunks_)) packing_parts_ = Buffer(device_, 2 * static_cast<std::size_t>(chunks_));
   kernels_.packing_chunks.launch(chunks_);
   packing_sums_.sum(chunks_);
   const double sum = packing_sums_.download()[0];
@@ -120,9 +121,9 @@ StepReport SphSolver<Real>::settle(double periods, const std::function<void(doub
   const double duration = periods * discretisation_.sound_period;
   if (duration == 0) return start();
   check_nobody_came();
+  WallArrays<Real> supported = make_supported_walls();
   set_hydrostatic();
   StepReport report = start_at_rest();
-  WallArrays<Real> supported = make_supported_walls();
 
   ParameterBlock damped = *values_;
   damped.set("damping", 4.0 * std::acos(-1.0) / discretisation_.sound_period);
@@ -183,7 +184,6 @@ PackingReport SphSolver<Real>::pack(int iterations, const std::function<void(dou
     }
     std::swap(walls_, walls);
   };
-  packing_parts_ = Buffer(device_, chunks_);
   const int report_interval = 10;
   for (int k = 0; k <= iterations; ++k) {
     among(closed, [this] { over_own(kernels_.packing); });

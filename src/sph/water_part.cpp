@@ -1,5 +1,6 @@
 #include "water_part.h"
 
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -13,6 +14,19 @@ void append_values(parallel::Bytes& bytes, const T* values, std::size_t count) {
   const char* begin = reinterpret_cast<const char*>(values);
   bytes.insert(bytes.end(), begin, begin + count * sizeof(T));
 }
+
+/// Of an exchange, from when the device has done what was queued before.
+class Watch {
+ public:
+  explicit Watch(Exchanged& exchanged) : exchanged_(exchanged), begin_(std::chrono::steady_clock::now()) {}
+  ~Watch() { exchanged_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  Exchanged& exchanged_;
+  std::chrono::steady_clock::time_point begin_;
+};
 
 }  // namespace
 
@@ -85,6 +99,13 @@ int WaterPart<Real>::neighbour(int side) const {
 }
 
 template <class Real>
+void WaterPart<Real>::send(int side, parallel::Bytes bytes) {
+  ++exchanged_.messages;
+  exchanged_.bytes += bytes.size();
+  parting_.group->send(neighbour(side), std::move(bytes));
+}
+
+template <class Real>
 void WaterPart<Real>::grow(std::size_t items, std::size_t components) {
   if (message_.size() < items * components) message_ = compute::Buffer<Real>(device_, 2 * items * components);
   if (ids_.size() < items) ids_ = compute::Buffer<std::uint32_t>(device_, 2 * items);
@@ -103,6 +124,8 @@ typename WaterPart<Real>::Arrived WaterPart<Real>::chosen(int list, int count) {
 
 template <class Real>
 std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particles(int count, Arrived& gone) {
+  device_.finish();
+  const Watch watch(exchanged_);
   components_ = carried_.at("state").components;
   sent_.upload({0, 0, 0});
   choose_.launch(count);
@@ -114,7 +137,7 @@ std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particl
     parallel::Bytes bytes;
     append_values(bytes, leaving.id.data(), leaving.id.size());
     append_values(bytes, leaving.values.data(), leaving.values.size());
-    parting_.group->send(neighbour(side), std::move(bytes));
+    send(side, std::move(bytes));
   }
   std::vector<Arrived> arrived;
   for (const int side : {1, 0}) {  // as refresh() has it
@@ -163,6 +186,8 @@ int WaterPart<Real>::look_around(int count) {
 
 template <class Real>
 void WaterPart<Real>::refresh(const std::string& name) {
+  device_.finish();
+  const Watch watch(exchanged_);
   Carried& carried = carried_.at(name);
   components_ = carried.components;
   const auto use = [&](const Edge& edge) {
@@ -177,7 +202,7 @@ void WaterPart<Real>::refresh(const std::string& name) {
     const std::vector<Real> values = message_.download(static_cast<std::size_t>(items_) * components_);
     parallel::Bytes bytes;
     append_values(bytes, values.data(), values.size());
-    parting_.group->send(neighbour(side), std::move(bytes));
+    send(side, std::move(bytes));
   }
   for (const int side : {1, 0}) {  // of two parts in a ring, the first message is of the one that comes after
     if (neighbour(side) < 0) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +13,12 @@
 #include "tables/device_sizes.h"
 
 namespace wavetank {
+
+/// What a part has exchanged with those beside it, so far.
+struct Exchanged {
+  double seconds = 0;  ///< with the waiting for them
+  std::uint64_t messages = 0, bytes = 0;
+};
 
 /// What the solver of a part of the water keeps to exchange particles with the parts beside it (parts.cl). Must stay where it is once it is
 /// bound.
@@ -56,6 +63,8 @@ class WaterPart {
   /// Particles that the report of the present step goes over: with those that have left the part.
   int watched() const { return watched_; }
 
+  const Exchanged& exchanged() const { return exchanged_; }
+
   std::vector<std::vector<Access>> exchanges;  ///< of each stage of the schedule
   std::string mismatch;                        ///< of halos in this step, which have other particles than were sent: a sentence, or ""
   std::int64_t all = 0;                        ///< particles, of all parts together
@@ -73,11 +82,13 @@ class WaterPart {
   enum { sent_before, sent_after, from_before, from_after };
 
   int neighbour(int side) const;
+  void send(int side, parallel::Bytes bytes);
   Arrived chosen(int list, int count);
   void grow(std::size_t items, std::size_t components);
 
   compute::Device device_;
   Parting parting_;
+  Exchanged exchanged_;
   int rows_ = 1, slots_ = 1, tile_;
   Stride stride_ = 0;
   int count_ = 0, room_ = 0, items_ = 0, first_ = 0, components_ = 0, chosen_room_ = 0, stills_ = 0;

@@ -34,6 +34,8 @@ TEST(BenchOptions, ReadsEverything) {
 
 TEST(BenchOptions, ChooseTheAction) {
   EXPECT_EQ(read({"--list"}).action, BenchOptions::Action::list);
+  EXPECT_EQ(read({"--parts", "2,4"}).action, BenchOptions::Action::parts);
+  EXPECT_EQ(read({"--parts", "2,4"}).parts, (std::vector<int>{2, 4}));
   EXPECT_EQ(read({start_up_option, "spheric2_45"}).action, BenchOptions::Action::start_up);
 }
 
@@ -45,6 +47,8 @@ TEST(BenchOptions, RefuseWhatMakesNoSense) {
                                                                                          {"--json", ""},
                                                                                          {"--nonsense"},
                                                                                          {"case.yaml"},
+                                                                                         {"--parts", "1"},
+                                                                                         {"--parts", "2", "--short"},
                                                                                          {"--short", "--filter", "3d"}})
     EXPECT_THROW(read(arguments), Error) << arguments[0];
 }

@@ -138,6 +138,8 @@ class Ranks(ProgramTest):
                     statuses = [message for _, message, _ in bag.read_messages("/wavetank/status")]
                 self.assertEqual(statuses[-1].parts, ranks)
                 self.assertGreaterEqual(statuses[-1].imbalance, 1)
+                self.assertGreater(statuses[-1].exchange_share, 0)
+                self.assertLess(statuses[-1].exchange_share, 1)
 
     def test_a_case_that_cannot_be_cut_is_refused_once(self):
         corner = [{"box": {"min": [0, 0, 0], "max": [0.05, 0, 0.4]}}]

@@ -106,6 +106,11 @@ TEST_F(Parts, NeedWhatIsToldBefore) {
   EXPECT_GT(two.need.others, 0u);
   EXPECT_LT(two.need.others, 0.5 * static_cast<double>(two.particles));
   EXPECT_LT(two.need.memory, one.need.memory);
+  Simulation run(on("auto,auto"));
+  run_steps(run, 5);
+  const auto had = static_cast<double>(run.device_memory());
+  EXPECT_GT(2 * two.need.memory, 0.85 * had) << "messages and instruments come on top, of little water";
+  EXPECT_LT(2 * two.need.memory, 1.3 * had) << "of parts of about one size";
   EXPECT_NE(error_of([&] { estimate_parts(scene, 100); }).find("too short"), std::string::npos);
 }
 

@@ -368,8 +368,17 @@ TEST(PartedSolver, AlsoBeforeTheFirstStep) {
     double told = 0;
     EXPECT_GT(tank.solver->pack(20, [&told](double fraction) { told = fraction; }).first_error, 0);
     EXPECT_EQ(told, 1);
-    EXPECT_TRUE(tank.solver->settle(0.5, {}).valid());
-    std::vector<char> states = tank.solver->save();
+    std::vector<char> states;
+    for (const StepReport& report : {tank.solver->start(), tank.solver->settle(0.5, {})}) {
+      EXPECT_TRUE(report.valid());
+      const double numbers[] = {report.time_step, report.greatest_speed, report.greatest_acceleration, 1.0 * report.guard_hits,
+                                1.0 * report.shepard_bounded};
+      states.insert(states.end(), reinterpret_cast<const char*>(numbers), reinterpret_cast<const char*>(numbers + 5));
+      for (const auto& [name, value] : report.more)
+        states.insert(states.end(), reinterpret_cast<const char*>(&value), reinterpret_cast<const char*>(&value + 1));
+    }
+    const std::vector<char> rested_state = tank.solver->save();
+    states.insert(states.end(), rested_state.begin(), rested_state.end());
     EXPECT_TRUE(tank.run(10));
     const std::vector<char> later = tank.solver->save();
     states.insert(states.end(), later.begin(), later.end());

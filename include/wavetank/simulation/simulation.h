@@ -51,6 +51,8 @@ struct SolverState {
   int parts = 1;                             ///< of the water
   double imbalance = 1;                      ///< particles of the part that has the most, over those of the mean
   std::uint64_t cuts = 0;                    ///< times that the water was cut into parts
+  double exchange_share = 0;                 ///< as PartsState has these
+  double messages = 0, message_bytes = 0;
 };
 
 /// Of an opening, since the start.
@@ -78,6 +80,7 @@ struct SimulationOptions {
   /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
   std::function<void(const std::string& what, double fraction)> progress;
   bool time_kernels = false;
+  bool in_parts = false;  ///< the water on one device too is one part of itself: with the bits of any number of parts
   /// Processes that make the steps, each of them a part of the water, with this one, which is the first. The
   /// others serve it by part_work (simulation/part_work.h). Must outlive the simulation. None: devices of this process alone.
   parallel::Team* team = nullptr;
@@ -102,7 +105,8 @@ struct Estimate {
 /// Measured on the case's device, as busy as it is now.
 Estimate estimate(const Case& checked, const SimulationOptions& options = {});
 
-/// What its water in so many parts would need, the largest of which is made on the case's first device. Throws Error as Simulation does.
+/// What its water in so many parts would need, the largest of which is made on the case's first device. Throws Error as Simulation does for
+/// its layout and its device.
 struct PartsEstimate {
   double spacing = 0;         ///< m
   std::size_t particles = 0;  ///< of all

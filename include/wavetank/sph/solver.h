@@ -154,6 +154,10 @@ struct PartsState {
   int count = 1;
   double imbalance = 1;    ///< particles of the part that has the most, over those of the mean
   std::uint64_t cuts = 0;  ///< times that the water was cut since the start of the run
+  // of the first part, for a step, on average since the water was cut last
+  double exchange_share = 0;  ///< of its time: that it exchanges particles and halos with others, and waits for them
+  double messages = 0;        ///< of particles and halos, that it sends
+  double bytes = 0;           ///< in them
 };
 
 /// How much of the volume that the particles' densities say is not there, because they lie upon each other.
@@ -272,7 +276,7 @@ class Solver {
   virtual std::vector<char> save() const = 0;
   /// Throws Error if the bytes are not those of a state of this case; of as many particles, where none may come or go.
   virtual void restore(const std::vector<char>& bytes) = 0;
-  /// Bytes on the device.
+  /// Bytes on the device; of parts, on all devices.
   virtual std::size_t device_memory() const = 0;
 };
 

@@ -28,6 +28,9 @@ __kernel void still_others(int count, int room, __global const real* state, long
   if (i >= room || (i < count && state[FIELD_OWN * stride + i] != R(0.0))) return;
   for (int axis = 0; axis < 3; ++axis) rates[(RATE_U + axis) * stride + i] = R(0.0);
   rates[RATE_SHEPARD * stride + i] = R(1.0);
+#ifdef RATE_FIT
+  rates[RATE_FIT * stride + i] = R(0.0);
+#endif
   guard_hits[i] = 0;
 }
 

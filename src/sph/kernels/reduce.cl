@@ -9,6 +9,7 @@
 // What the watchdog finds of one particle, of which the rows of src/sph/tables make the step's report.
 typedef struct {
   int here;      // in the water: 0 of one that has left in this step, whose last state and rates these are
+  int own;       // 0 of a part's halo, and of what has left a part
   int broken;    // a place or a velocity is not finite
   int infected;  // the compression or γ alone is not
   int sound;     // neither
@@ -35,11 +36,12 @@ INLINE watched_t watched(__constant const parameters_t* p, __global const real* 
   found.fast = found.sound && found.speed2 > p->greatest_speed * p->greatest_speed ? 1 : 0;
   found.guarded = guarded;
   found.here = here;
+  found.own = 1;
 #ifdef PARTED
   // of others the state is watched by others; rates and hits of them are stilled
   const int place = place_in_parts(p, x, y, z);
   if (!here || state[FIELD_OWN * stride + i] == R(0.0)) {
-    found.here = found.broken = found.outside = found.fast = 0;
+    found.here = found.own = found.broken = found.outside = found.fast = 0;
     found.infected = not_finite(found.shepard) ? 1 : 0;
     found.speed2 = R(0.0);
   } else if (found.sound && is_astray(p, x, y, z, place)) {

@@ -30,7 +30,7 @@ Method riemann_ale(const Case& scene) {
   const std::string relative = "state[FIELD_VOLUME * stride + i] / p->cell_volume";
   method.reports = {{"largest_volume", ReportRow::Kind::greatest, "Δx^d", "of a particle", relative},
                     {"volumes_beyond", ReportRow::Kind::count, "", "below half or above twice that of a lattice",
-                     "(" + relative + " < R(0.5) || " + relative + " > R(2.0)) ? 1 : 0"}};
+                     "w->own && (" + relative + " < R(0.5) || " + relative + " > R(2.0)) ? 1 : 0"}};
   return method;
 }
 
