@@ -107,9 +107,9 @@ TimedSteps timed(Simulation& simulation, int repeats, const std::function<bool()
 
 PartsCosts assumed_costs(const PartsReport& report) {
   const double own_share = report.costs.sweeps / (report.costs.sweeps + report.costs.others);
-  constexpr double particle_step = 6e-9;             // s: a graphics card
-  constexpr double link = 20e9, network = 6.25e9;    // bytes/s: to the host, and between machines for each card
-  constexpr double latency = 65e-6;                  // s
+  constexpr double particle_step = 6e-9;           // s: a graphics card
+  constexpr double link = 20e9, network = 6.25e9;  // bytes/s: to the host, and between machines for each card
+  constexpr double latency = 65e-6;                // s
   PartsCosts costs;
   costs.sweeps = own_share * particle_step;
   costs.others = (1 - own_share) * particle_step;
@@ -161,8 +161,8 @@ PartsReport measure_parts(const BenchCase& bench_case, const compute::DeviceInfo
     if (stopped()) break;
     PartsMeasurement measured;
     measured.need = estimate_parts(scene, count).need;
-    const TimedSteps steps = timed(*std::make_unique<Simulation>(make_case(bench_case, repeated(device.indices(), count)), options),
-                                   repeats, stopped);
+    const TimedSteps steps =
+        timed(*std::make_unique<Simulation>(make_case(bench_case, repeated(device.indices(), count)), options), repeats, stopped);
     measured.seconds = steps.seconds;
     const double ways = 2.0 * (count - 1);  // across each cut there and back
     measured.load = {particles, static_cast<double>(measured.need.all_others), static_cast<double>(count), ways * steps.state.messages,
@@ -205,8 +205,10 @@ std::string table_of(const PartsReport& report) {
   costs.add({"a halo, spacings", figure(report.halo)});
   text += "\n" + costs.text();
   if (!(report.halo > 0)) return text;
-  const Fleet fleets[] = {{"basin, 2000 × 1000 × 500 spacings", 2000, 500000, 64}, {"flume, 40 000 × 250 × 100 spacings", 40000, 25000, 64}};
-  TextTable forecast({"10⁹ particles on 64 devices: efficiency", "devices and links as measured", "6 ns a particle's step, 20 and 6.25 GB/s"});
+  const Fleet fleets[] = {{"basin, 2000 × 1000 × 500 spacings", 2000, 500000, 64},
+                          {"flume, 40 000 × 250 × 100 spacings", 40000, 25000, 64}};
+  TextTable forecast(
+      {"10⁹ particles on 64 devices: efficiency", "devices and links as measured", "6 ns a particle's step, 20 and 6.25 GB/s"});
   for (const Fleet& fleet : fleets)
     forecast.add({fleet.name, figure(efficiency(fleet, report, report.costs)), figure(efficiency(fleet, report, assumed_costs(report)))});
   return text + "\n" + forecast.text();

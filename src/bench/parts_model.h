@@ -40,8 +40,8 @@ MessageCosts measure_messages(const compute::DeviceInfo& device);
 struct PartsMeasurement {
   PartsNeed need;
   PartsLoad load;
-  double seconds = 0;          ///< a step, measured
-  double by_the_model = 0;     ///< s
+  double seconds = 0;       ///< a step, measured
+  double by_the_model = 0;  ///< s
 };
 
 struct PartsReport {

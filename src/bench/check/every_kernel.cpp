@@ -184,6 +184,7 @@ void Runs::run_parts(const Case& checked) {
   options.takes_turns = true;  // oclgrind knows of one thread alone
   const auto solver = make_parted_solver({device_, compute::Device(device_.info(), true)}, scene, layout, discretise(scene, layout),
                                          {1 + scene.bodies.size(), box_centre}, options);
+  solver->pack(1, {});
   solver->start();
   ++found_.cases;
   bool valid = true;
