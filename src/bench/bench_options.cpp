@@ -34,7 +34,7 @@ BenchOptions read_bench_options(int argc, char** argv) {
   app.add_flag("--short", options.short_set,
                "100k and 1M in 3-D in place of the usual set, for a machine that is at hand for minutes only");
   app.add_option("--parts", options.parts,
-                 "of one case, 100k in 3-D unless --filter leaves another: its step in so many parts on one device, beside a model's; 2,4")
+                 "measure one case, 100k in 3-D unless --filter leaves another, in so many parts that take turns, beside a model of them")
       ->delimiter(',')
       ->type_name("N,...");
   app.add_flag("--no-cold-build", no_cold_build, "leave out how long the kernels take to build with empty caches");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "measurement.h"
@@ -79,6 +80,14 @@ std::string repeated(const std::string& device, int parts) {
   return text;
 }
 
+/// What a part does whatever particles it has: the host's work, and all walls.
+bool is_of_part(const std::string& kernel) { return kernel.rfind("(host)", 0) == 0 || kernel == "wall_loads"; }
+
+/// Kernels that go over tiles of a part's own particles.
+bool is_of_own(const std::string& kernel) {
+  return is_evaluation(kernel) || kernel == "surface_normals" || kernel == "surface_cone" || kernel == "shifts";
+}
+
 struct TimedSteps {
   double seconds = 0, in_kernels = 0, in_sweeps = 0;  ///< a step
   SolverState state;
@@ -91,8 +100,9 @@ TimedSteps timed(Simulation& simulation, int repeats, const std::function<bool()
   for (const Block& block : blocks) {
     double all = 0, of_sweeps = 0;
     for (const KernelTime& time : block.kernels) {
+      if (is_of_part(time.kernel)) continue;
       all += time.seconds;
-      if (is_evaluation(time.kernel)) of_sweeps += time.seconds;
+      if (is_of_own(time.kernel)) of_sweeps += time.seconds;
     }
     seconds.values.push_back(block.seconds / block.steps);
     kernels.values.push_back(all / block.steps);
@@ -143,36 +153,43 @@ PartsReport measure_parts(const BenchCase& bench_case, const compute::DeviceInfo
   report.device = device.describe();
   report.name = bench_case.name;
   const Case scene = make_case(bench_case, device.indices());
+  std::vector<PartsNeed> needs;  // before anything is measured that would be lost by one that cannot be
+  for (const int count : parts) needs.push_back(estimate_parts(scene, count).need);
   SimulationOptions options;
   options.time_kernels = true;
-  report.one_device = timed(*std::make_unique<Simulation>(scene, options), repeats, stopped).seconds;
+  options.parts_take_turns = true;
+  const auto steps_of = [&](const char* what, const Case& of) {
+    std::fprintf(stderr, "%s\n", what);
+    return timed(*std::make_unique<Simulation>(of, options), repeats, stopped);
+  };
+  report.one_device = steps_of("one device", scene).seconds;
+  if (stopped()) return report;
   options.in_parts = true;
-  const TimedSteps one = timed(*std::make_unique<Simulation>(scene, options), repeats, stopped);
+  const TimedSteps one = steps_of("one part", scene);
+  if (stopped()) return report;
   report.one_part = one.seconds;
   report.particles = one.state.particles;
   const auto particles = static_cast<double>(report.particles);
   const MessageCosts messages = measure_messages(device);
   report.costs.sweeps = one.in_sweeps / particles;
   report.costs.others = (one.in_kernels - one.in_sweeps) / particles;
-  report.costs.host = one.seconds - one.in_kernels;
+  report.costs.host = std::max(one.seconds - one.in_kernels, 0.0);
   report.costs.message = messages.message;
   report.costs.byte = messages.byte;
-  for (const int count : parts) {
+  for (const PartsNeed& need : needs) {
+    const int count = need.parts;
+    const TimedSteps steps = steps_of((std::to_string(count) + " parts").c_str(), make_case(bench_case, repeated(device.indices(), count)));
     if (stopped()) break;
     PartsMeasurement measured;
-    measured.need = estimate_parts(scene, count).need;
-    const TimedSteps steps =
-        timed(*std::make_unique<Simulation>(make_case(bench_case, repeated(device.indices(), count)), options), repeats, stopped);
+    measured.need = need;
     measured.seconds = steps.seconds;
     const double ways = 2.0 * (count - 1);  // across each cut there and back
     measured.load = {particles, static_cast<double>(measured.need.all_others), static_cast<double>(count), ways * steps.state.messages,
                      ways * steps.state.message_bytes};
     measured.by_the_model = step_seconds(report.costs, measured.load);
-    if (count > 1) {
-      report.messages = steps.state.messages;
-      report.copy_bytes = measured.load.bytes / measured.load.copies;
-      report.halo = measured.load.copies / ways / (particles / water_length_in_spacings(bench_case));
-    }
+    report.messages = steps.state.messages;
+    report.copy_bytes = measured.load.bytes / measured.load.copies;
+    report.halo = measured.load.copies / ways / (particles / water_length_in_spacings(bench_case));
     report.measured.push_back(measured);
   }
   return report;

@@ -83,8 +83,8 @@ std::string parts_report(const Case& checked, const PartsEstimate& estimated) {
   const double bytes_in_mib = 1024.0 * 1024.0;
   std::string text = visible_text(checked.title) + "\n";
   text += line("particles", formatted("%zu, spacing %.4g m", estimated.particles, estimated.spacing));
-  text += line("parts", formatted("%d, the largest with %zu particles of its own and %zu of others", need.parts, need.own, need.others));
-  text += line("device memory", formatted("%.1f MiB, of the largest part at the start", need.memory / bytes_in_mib));
+  text += line("parts", formatted("%d, the largest of %zu particles and %zu copies of others", need.parts, need.own, need.others));
+  text += line("device memory", formatted("%.1f MiB at the most of a part, after a step", need.memory / bytes_in_mib));
   return text;
 }
 

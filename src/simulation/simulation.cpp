@@ -194,7 +194,9 @@ std::unique_ptr<Solver> Simulation::Parts::solver_on(const std::vector<compute::
   if (options.team != nullptr)
     return make_parted_solver(*options.team, those[0], write_case(scene), scene, layout, discretisation, centres);
   if (those.size() == 1 && !options.in_parts) return make_solver(those[0], scene, layout, discretisation, centres);
-  return make_parted_solver(those, scene, layout, discretisation, centres);
+  PartedSolverOptions parts;
+  parts.takes_turns = options.parts_take_turns;
+  return make_parted_solver(those, scene, layout, discretisation, centres, parts);
 }
 
 std::unique_ptr<Solver> Simulation::Parts::prepared_solver() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "part_server.h"
@@ -203,8 +204,13 @@ class PartedSolver final : public Solver {
     parts_[0]->lead(mover);
     const std::vector<int> coupled = mover != nullptr ? mover->coupled() : std::vector<int>();
     const auto begin = std::chrono::steady_clock::now();
+    const Exchanged before = parts_[0]->exchanged();  // with that of readings
     ask(Packed().value(PartOrder::advance).value<char>(mover != nullptr ? 1 : 0).values(coupled));
     seconds_of_steps_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const Exchanged& after = parts_[0]->exchanged();
+    exchanged_in_steps_.seconds += after.seconds - before.seconds;
+    exchanged_in_steps_.messages += after.messages - before.messages;
+    exchanged_in_steps_.bytes += after.bytes - before.bytes;
     if (parts_[0]->motions()) motions_ = parts_[0]->motions();
     ++steps_since_cut_;
     note_load();
@@ -235,10 +241,9 @@ class PartedSolver final : public Solver {
     state.cuts = cuts_;
     if (steps_since_cut_ == 0) return state;
     state.imbalance = parts_[0]->imbalance();
-    const Exchanged& now = parts_[0]->exchanged();
-    if (seconds_of_steps_ > 0) state.exchange_share = (now.seconds - exchanged_when_cut_.seconds) / seconds_of_steps_;
-    state.messages = static_cast<double>(now.messages - exchanged_when_cut_.messages) / steps_since_cut_;
-    state.bytes = static_cast<double>(now.bytes - exchanged_when_cut_.bytes) / steps_since_cut_;
+    if (seconds_of_steps_ > 0) state.exchange_share = exchanged_in_steps_.seconds / seconds_of_steps_;
+    state.messages = static_cast<double>(exchanged_in_steps_.messages) / steps_since_cut_;
+    state.bytes = static_cast<double>(exchanged_in_steps_.bytes) / steps_since_cut_;
     return state;
   }
   void let_in(const NewParticles& particles) override {
@@ -399,7 +404,7 @@ class PartedSolver final : public Solver {
   void count_steps_anew() {
     steps_since_cut_ = 0;
     seconds_of_steps_ = 0;
-    exchanged_when_cut_ = parts_[0]->exchanged();
+    exchanged_in_steps_ = Exchanged();
   }
 
   /// By how much the step was longer than one of even parts, in steps.
@@ -427,8 +432,8 @@ class PartedSolver final : public Solver {
   std::shared_ptr<std::vector<int>> dropped_points_ = std::make_shared<std::vector<int>>();  ///< that parts may still have
   std::optional<WallMotions> motions_;                                                       ///< of walls that have moved, now
   int steps_since_cut_ = 0;
-  double seconds_of_steps_ = 0;  ///< likewise
-  Exchanged exchanged_when_cut_;
+  double seconds_of_steps_ = 0;   ///< likewise
+  Exchanged exchanged_in_steps_;  ///< likewise
   std::uint64_t cuts_ = 0;
   std::vector<int> present_cuts_;
   double lost_steps_ = 0, load_when_cut_ = 1;
@@ -445,15 +450,19 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
     return make_part_server(device, parting, scene, layout, discretisation, centres);
   };
   OneOfMany first(parts, 0);
-  std::unique_ptr<PartServer> part = part_of(first);
+  const std::unique_ptr<PartServer> part = part_of(first);
   const Bytes state = part->laid_out_state(layout);
   const std::vector<int> cuts = cuts_for(part->particles_in_blocks(state), parting, parts, !layout.openings.empty(), {});
   const std::vector<std::int64_t> in_places = part->particles_in_places(state);
   PartsNeed need;
   need.parts = parts;
-  int largest = 0;
+  int largest = 0, widest = 0, width = 0;
   for (int k = 0; k < parts; ++k) {
     const int begin = parting.begin_of(cuts[k]), end = parting.begin_of(cuts[k + 1]);
+    if (end - begin > width) {
+      widest = k;
+      width = end - begin;
+    }
     std::vector<char> has(in_places.size(), 0);  // a small ring may bring it the same places from either side
     for (int place = begin - parting.halo; parts > 1 && place < end + parting.halo; ++place)
       has[parting.in_ring(place, parting.wraps())] = 1;
@@ -471,10 +480,10 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
     need.own = own;
     need.others = others;
   }
-  part.reset();
-  OneOfMany last(parts, largest);
-  part = part_of(last);
-  need.memory = static_cast<double>(part->memory_for(cuts, state));
+  for (const int k : std::set<int>{largest, widest}) {  // of little water in much of the tank the slots may weigh more
+    OneOfMany one(parts, k);
+    need.memory = std::max(need.memory, static_cast<double>(part_of(one)->memory_for(cuts, state)));
+  }
   return need;
 }
 

@@ -56,8 +56,8 @@ void set_cuts(ParameterBlock& values, const Parting& parting, const std::vector<
   values.set("near_begin", before);
   values.set("near_end", after);
   values.set("halo_width", parting.halo);
-  // all places, where in a ring there is next to nothing between the ends of the window
   const int width = static_cast<int>(values.at("halo_end") - values.at("halo_begin")) + 2;
+  // all places, where in a ring there is next to nothing between the ends of the window
   const bool whole = wraps && width + 2 * parting.halo > parting.places;
   const int size = whole ? parting.places + 2 : width;
   values.set("window_begin", whole ? 0 : values.at("halo_begin") - 1);

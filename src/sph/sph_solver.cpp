@@ -131,7 +131,8 @@ SphSolver<Real>::SphSolver(const SolverRows& rows, const compute::Device& device
       energy_rows_(grid_shape_.rows_y * grid_shape_.rows_z),
       energy_pieces_(std::clamp(1024 / energy_rows_, 1, 64)),
       energy_segment_(slots_of_segment(discretisation, grid_shape_)),
-      energy_parts_(device, static_cast<std::size_t>(energy_rows_) * energy_pieces_ * exact_places(field::energy_count)),
+      energy_parts_(device,  // a part's by set_cuts()
+                    rows.parting ? 1 : static_cast<std::size_t>(energy_rows_) * energy_pieces_ * exact_places(field::energy_count)),
       energy_quanta_(quanta_of_energies(scene, discretisation)),
       energy_quanta_on_device_(device, std::vector<Real>(energy_quanta_.begin(), energy_quanta_.end())) {
   up_ = layout.up;

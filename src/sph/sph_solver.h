@@ -151,8 +151,8 @@ class SphSolver final : public Solver, private StepEngine {
     std::vector<double> step, listed, impulses;
   };
   ReadState read_state(const std::vector<char>& bytes) const;
-  /// Leaves what is no part's.
-  void keep_own(ReadState& read) const;
+  /// Leaves what is neither the part's own nor in its halo; returns how many are in that.
+  int keep_own(ReadState& read) const;
   void upload_by_id(Buffer& array, int components, const std::vector<Real>& by_id);
   int gradient_count() const { return static_cast<int>(gradient_.size() / static_cast<std::size_t>(stride_)); }
   compute::Arguments arguments() const;

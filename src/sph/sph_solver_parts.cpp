@@ -293,6 +293,8 @@ void SphSolver<Real>::set_cuts(const std::vector<int>& cuts) {
   energy_rows_ = slots / static_cast<int>(values_->at(part_->parting().axis == 0 ? "window_size" : "slots_x"));
   surroundings_.grid.resize(device_, slots, 1 + 2 * static_cast<int>(stride_));
   part_->set_window(energy_rows_, slots);
+  const std::size_t sums = static_cast<std::size_t>(energy_rows_) * energy_pieces_ * exact_places(field::energy_count);
+  if (energy_parts_.size() < sums) energy_parts_ = compute::Buffer<std::int64_t>(device_, sums);
   wrenches_.set_part(part_->parting(), static_cast<int>(values_->at("own_begin")), static_cast<int>(values_->at("own_end")));
 }
 
@@ -317,6 +319,7 @@ std::size_t SphSolver<Real>::memory_for(const std::vector<int>& cuts, const std:
     find_compression_rates(Slot::now);
   else
     find_rates(Slot::now);
+  sort_part();
   return device_memory();
 }
 

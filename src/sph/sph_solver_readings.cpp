@@ -120,7 +120,7 @@ Crowding SphSolver<Real>::crowding() {
   for (const int i : own_particles(state)) {
     if (!std::isfinite(fillings[i]) || !std::isfinite(volumes[i])) continue;  // of which the watchdog tells
     const double volume = volumes[i], lost = fillings[i] > crowded ? volume * (1 - 1.0 / fillings[i]) : 0.0;
-    const auto quanta = [quantum](double amount) { return std::llround(std::min(amount / quantum, 1e15)); };
+    const auto quanta = [quantum](double amount) { return std::llround(std::clamp(amount / quantum, 0.0, 1e12)); };
     found.add({quanta(lost), quanta(volume), fillings[i], id[i], place_of(state, i)});
   }
   return found;

@@ -170,10 +170,14 @@ auto SphSolver<Real>::read_state(const std::vector<char>& bytes) const -> ReadSt
 }
 
 template <class Real>
-void SphSolver<Real>::keep_own(ReadState& read) const {
+int SphSolver<Real>::keep_own(ReadState& read) const {
   const std::string along = place_block(part_->parting().axis);
   const auto place = std::find_if(read.components.begin(), read.components.end(), [&](const auto& saved) { return saved.block == along; });
-  const std::vector<int> mine = in_part(read.values[place - read.components.begin()]);
+  const std::vector<Real>& coordinates = read.values[place - read.components.begin()];
+  const std::vector<int> mine = in_part(coordinates);
+  const double begin = values_->at("own_begin"), end = values_->at("own_end");
+  const std::vector<int> places = places_in_parts(coordinates);
+  const auto own = std::count_if(places.begin(), places.end(), [&](int at) { return at >= begin && at < end; });
   const auto pick = [&mine](auto& all) {
     auto picked = all;
     picked.resize(mine.size());
@@ -182,20 +186,22 @@ void SphSolver<Real>::keep_own(ReadState& read) const {
   };
   pick(read.id);
   for (std::vector<Real>& of_component : read.values) pick(of_component);
+  return static_cast<int>(mine.size()) - static_cast<int>(own);
 }
 
 /// Everything is read before anything is set, so that a snapshot that does not fit leaves the solver as it was.
 template <class Real>
 void SphSolver<Real>::restore(const std::vector<char>& bytes) {
   ReadState read = read_state(bytes);
+  int coming = 0;  // with the next step, of a part: another halo, before the one that it has is left
   if (part_) {
     part_->all = static_cast<std::int64_t>(read.id.size());
     left_.clear();
-    keep_own(read);
+    coming = keep_own(read);
   }
   const std::vector<std::uint32_t>& id = read.id;
 
-  reserve(std::max(static_cast<int>(id.size()), 1));
+  reserve(std::max(static_cast<int>(id.size()) + coming, 1));
   set_count(static_cast<int>(id.size()));
   next_id_ = read.next_id;
   waiting_ = NewParticles();

@@ -124,7 +124,7 @@ typename WaterPart<Real>::Arrived WaterPart<Real>::chosen(int list, int count) {
 
 template <class Real>
 std::vector<typename WaterPart<Real>::Arrived> WaterPart<Real>::exchange_particles(int count, Arrived& gone) {
-  device_.finish();
+  if (!is_alone()) device_.finish();
   const Watch watch(exchanged_);
   components_ = carried_.at("state").components;
   sent_.upload({0, 0, 0});
@@ -186,6 +186,7 @@ int WaterPart<Real>::look_around(int count) {
 
 template <class Real>
 void WaterPart<Real>::refresh(const std::string& name) {
+  if (is_alone()) return;
   device_.finish();
   const Watch watch(exchanged_);
   Carried& carried = carried_.at(name);

@@ -82,6 +82,7 @@ class WaterPart {
   enum { sent_before, sent_after, from_before, from_after };
 
   int neighbour(int side) const;
+  bool is_alone() const { return neighbour(0) < 0 && neighbour(1) < 0; }
   void send(int side, parallel::Bytes bytes);
   Arrived chosen(int list, int count);
   void grow(std::size_t items, std::size_t components);

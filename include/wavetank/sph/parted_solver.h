@@ -35,7 +35,7 @@ std::unique_ptr<Solver> make_parted_solver(parallel::Team& team, const compute::
                                            const Case& settled_case, const Layout& layout, const Discretisation& discretisation,
                                            const std::vector<Eigen::Vector3d>& centres);
 
-/// Makes the largest part alone. Throws Error if the water is too short for them, or the device too small.
+/// Makes one part at a time. Throws Error if the water is too short for them, or the device too small.
 PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& settled_case, const Layout& layout,
                         const Discretisation& discretisation);
 

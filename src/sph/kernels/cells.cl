@@ -60,7 +60,7 @@ INLINE int slot_index(__constant const parameters_t* p, real x, real y, real z) 
   int ry = 0;
 #endif
 #ifdef PARTED
-  // one that is nowhere is still to be in a place that is looked at
+  // one that is astray, which the watchdog finds, is in the window too, whose outermost places stay empty
   const int first = p->window_begin + 1, last = p->window_begin + p->window_size - 2;
   const int here = place_in_window(p, p->part_axis == 0 ? slot : (p->part_axis == 1 ? ry : rz)) + p->window_begin;
   const int inside = min(max(here, first), last);

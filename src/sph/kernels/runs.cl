@@ -90,5 +90,8 @@ INLINE run_t run_of_row(__constant const parameters_t* p, __global const int* sl
   __global const int* starts = slot_start + row * SLOTS_OF_ROW(p);
   run.begin = starts[SLOT_HERE(p, first)];
   run.end = left > R(0.0) ? starts[SLOT_HERE(p, last) + 1] : run.begin;
+#ifdef PARTED
+  run.end = max(run.end, run.begin);  // far from the part, in a ring, a run may begin beyond one end of the window and end beyond the other
+#endif
   return run;
 }
