@@ -450,7 +450,7 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
     return make_part_server(device, parting, scene, layout, discretisation, centres);
   };
   OneOfMany first(parts, 0);
-  const std::unique_ptr<PartServer> part = part_of(first);
+  std::unique_ptr<PartServer> part = part_of(first);
   const Bytes state = part->laid_out_state(layout);
   const std::vector<int> cuts = cuts_for(part->particles_in_blocks(state), parting, parts, !layout.openings.empty(), {});
   const std::vector<std::int64_t> in_places = part->particles_in_places(state);
@@ -480,6 +480,7 @@ PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& sc
     need.own = own;
     need.others = others;
   }
+  part.reset();                                         // whose memory would count
   for (const int k : std::set<int>{largest, widest}) {  // of little water in much of the tank the slots may weigh more
     OneOfMany one(parts, k);
     need.memory = std::max(need.memory, static_cast<double>(part_of(one)->memory_for(cuts, state)));
