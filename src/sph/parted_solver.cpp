@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include "part_plan.h"
 #include "part_server.h"
 #include "sph_solver.h"
 #include "wavetank/common/error.h"
@@ -20,17 +20,6 @@ namespace {
 using parallel::Bytes;
 using parallel::Packed;
 using parallel::Unpacked;
-
-/// Across the longer level axis of the tank.
-int axis_of_parts(const Discretisation& d) {
-  int axis = -1;
-  for (int k = 0; k < 3; ++k) {
-    if (k == d.top.axis || (k == 1 && d.dimensions == 2)) continue;
-    const double length = d.tank.max[k] - d.tank.min[k];
-    if (axis < 0 || length > d.tank.max[axis] - d.tank.min[axis]) axis = k;
-  }
-  return axis;
-}
 
 /// pocl keeps 128 kernels of a process loaded; two threads that ask at once for one that it has let go load it twice, and it ends the
 /// process when the second is done (an assertion in pocl_release_dlhandle_cache, up to version 5 at least).
@@ -80,65 +69,6 @@ class PointsOfAll final : public PointSet {
 
  private:
   std::shared_ptr<std::vector<int>> dropped_;
-};
-
-/// How the water of a case is cut into parts on devices of this kind.
-Parting parting_for(const Case& scene, const Layout& layout, const Discretisation& d, const compute::DeviceInfo& device,
-                    const PartedSolverOptions& options) {
-  Parting parting;
-  parting.axis = axis_of_parts(d);
-  parting.given = layout.particles.size();
-  parting.room = room_for(scene, layout);
-  const bool ghosts = scene.numerics.walls.method == WallMethod::ghost;
-  const GridShape grid = grid_shape(d, tiling_for(device, scene.numerics.precision, ghosts), parting.room);
-  const double place = parting.axis == 0 ? grid.slot_length : grid.row_side;
-  parting.segment = slots_of_segment(d, grid);
-  parting.block = parting.axis == 0 ? parting.segment : 1;  // no tile has particles of two rows
-  parting.places = (parting.axis == 0 ? grid.slots_x : parting.axis == 1 ? grid.rows_y : grid.rows_z) - 2;
-  parting.periodic = scene.tank.periodic[parting.axis];
-  // through the pressure of a wall's element others act from twice the support; a particle drifts, and so do those that it looks for; and
-  // there are places beyond the end of a periodic tank, where nobody is
-  const double reach = (kind_of(scene.numerics.walls) == WallKind::facets ? 1 : 2) * d.support;
-  const double drift = greatest_drift(schedule_of(scene, nullptr), scene, d);
-  const double empty = parting.periodic ? parting.places * place - (d.tank.max[parting.axis] - d.tank.min[parting.axis]) : 0;
-  parting.halo = static_cast<int>(std::floor((reach + 2 * drift + std::max(empty, 0.0)) * (1 + 1e-4) / place)) + 1 - options.halo_less;
-  parting.way = static_cast<int>(std::ceil(2 * drift / place));
-  parting.spoils = options.spoils;
-  return parting;
-}
-
-/// Of blocks, the least that a part may have: halos are of the parts beside it, and none may be in that of the one beyond when it comes
-/// into it.
-int least_blocks(const Parting& parting, int parts, int halo_less) {
-  const int way = parts > 2 ? parting.way : 0;
-  return (parting.halo + halo_less + way + parting.block - 1) / parting.block;
-}
-
-/// Throws Error if the water is too short for so many parts. `weights`: particles of each block; `is_open`: water may come in.
-std::vector<int> cuts_for(std::vector<std::int64_t> weights, const Parting& parting, int parts, bool is_open,
-                          const PartedSolverOptions& options) {
-  // where water comes in, there may be none yet: empty blocks count for something
-  for (std::int64_t& weight : weights) weight = is_open ? 1000 * weight + 1 : weight;
-  const int least = least_blocks(parting, parts, options.halo_less);
-  std::vector<int> cuts = parallel::cut_into_slabs(weights, parts, least);
-  if (options.uneven != 0 && cuts.size() > 2) cuts[1] = std::clamp(cuts[1] + options.uneven, least, cuts[2] - least);
-  return cuts;
-}
-
-/// A part alone, as one of so many: nobody hears it, and it hears nothing.
-class OneOfMany final : public parallel::Group {
- public:
-  OneOfMany(int size, int rank) : size_(size), rank_(rank) {}
-  int size() const override { return size_; }
-  int rank() const override { return rank_; }
-  void send(int, Bytes) override {}
-  Bytes receive(int) override { return {}; }
-  std::vector<double> greatest(const std::vector<double>& values) override { return values; }
-  std::vector<std::int64_t> sums(const std::vector<std::int64_t>& values) override { return values; }
-  std::vector<std::int64_t> least(const std::vector<std::int64_t>& values) override { return values; }
-
- private:
-  int size_, rank_;
 };
 
 class PartedSolver final : public Solver {
@@ -440,53 +370,6 @@ class PartedSolver final : public Solver {
 };
 
 }  // namespace
-
-PartsNeed need_of_parts(int parts, const compute::Device& device, const Case& scene, const Layout& layout,
-                        const Discretisation& discretisation) {
-  Parting parting = parting_for(scene, layout, discretisation, device.info(), {});
-  const std::vector<Eigen::Vector3d> centres(1 + scene.bodies.size(), Eigen::Vector3d::Zero());
-  const auto part_of = [&](parallel::Group& group) {
-    parting.group = &group;
-    return make_part_server(device, parting, scene, layout, discretisation, centres);
-  };
-  OneOfMany first(parts, 0);
-  std::unique_ptr<PartServer> part = part_of(first);
-  const Bytes state = part->laid_out_state(layout);
-  const std::vector<int> cuts = cuts_for(part->particles_in_blocks(state), parting, parts, !layout.openings.empty(), {});
-  const std::vector<std::int64_t> in_places = part->particles_in_places(state);
-  PartsNeed need;
-  need.parts = parts;
-  int largest = 0, widest = 0, width = 0;
-  for (int k = 0; k < parts; ++k) {
-    const int begin = parting.begin_of(cuts[k]), end = parting.begin_of(cuts[k + 1]);
-    if (end - begin > width) {
-      widest = k;
-      width = end - begin;
-    }
-    std::vector<char> has(in_places.size(), 0);  // a small ring may bring it the same places from either side
-    for (int place = begin - parting.halo; parts > 1 && place < end + parting.halo; ++place)
-      has[parting.in_ring(place, parting.wraps())] = 1;
-    std::size_t own = 0, others = 0;
-    for (int place = 1; place <= parting.places; ++place) {
-      const auto count = static_cast<std::size_t>(in_places[place]);
-      if (place >= begin && place < end)
-        own += count;
-      else if (has[place] != 0)
-        others += count;
-    }
-    need.all_others += others;
-    if (own + others < need.own + need.others) continue;
-    largest = k;
-    need.own = own;
-    need.others = others;
-  }
-  part.reset();                                         // whose memory would count
-  for (const int k : std::set<int>{largest, widest}) {  // of little water in much of the tank the slots may weigh more
-    OneOfMany one(parts, k);
-    need.memory = std::max(need.memory, static_cast<double>(part_of(one)->memory_for(cuts, state)));
-  }
-  return need;
-}
 
 std::unique_ptr<Solver> make_parted_solver(const std::vector<compute::Device>& devices, const Case& scene, const Layout& layout,
                                            const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres,
