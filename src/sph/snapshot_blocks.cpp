@@ -118,6 +118,7 @@ template void SnapshotBlocks::put(const std::string&, const std::vector<std::uin
 template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&, std::size_t) const;
 template std::vector<std::uint32_t> SnapshotBlocks::get(const std::string&) const;
 template std::vector<float> SnapshotBlocks::get(const std::string&, std::size_t) const;
+template std::vector<float> SnapshotBlocks::get(const std::string&) const;
 template std::vector<double> SnapshotBlocks::get(const std::string&, std::size_t) const;
 template std::vector<double> SnapshotBlocks::get(const std::string&) const;
 
