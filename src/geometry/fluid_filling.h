@@ -17,6 +17,7 @@ struct Solid {
   const TriangleMesh* mesh = nullptr;
   Outline outline;  ///< in 2-D
   int dimensions = 3;
+  bool water_film = true;  ///< in gaps too narrow for particles
 
   bool contains(const Vector3d& point) const { return dimensions == 2 ? inside(outline, point) : inside(*mesh, point); }
   Box bounds() const { return dimensions == 2 ? bounding_box(outline) : mesh->bounding_box(); }
@@ -83,6 +84,9 @@ void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 /// In gaps between walls that face each other, empties cells whose particle would not fit: all of a gap narrower than a cell, and so many
 /// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region);
+
+/// Whether a place is in a gap beside a body that is too narrow for particles, but for a film of water.
+bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vector3d& place);
 
 /// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's surface.
 void check_watertight(const Basin& basin, double spacing, const FilledRegion& region);

@@ -150,7 +150,8 @@ Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box&
   basin.top = top_of(checked);
   basin.periodic = checked.tank.periodic;
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) {
-    basin.solids.push_back({checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions});
+    basin.solids.push_back(
+        {checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions, checked.bodies[b].rigid.water_film});
   }
   return basin;
 }

@@ -149,6 +149,7 @@ std::vector<WallElement> make_lid(const Basin& basin, double spacing, const std:
             const Vector3d to = from + region.centre(neighbour[0], neighbour[1], neighbour[2]) - region.centre(i, j, k);
             // A little farther than the next centre: a cell that stays empty because it touches a wall needs no lid before that wall.
             if (basin.grid->crosses(from, from + 1.06 * (to - from)) || finder.other(r, to, 0.75 * spacing)) continue;
+            if (is_filled_by_film(basin, region, to)) continue;
             lid.push_back(on_surface ? inclined_element(region, i, j, k) : lid_element(region, from, axis, way, stretch));
           }
         }

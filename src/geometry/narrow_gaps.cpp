@@ -24,6 +24,9 @@ struct Gap {
   double near = 0;   ///< m, distance from the nearer wall
   double width = 0;  ///< m
   double cell = 0;   ///< m, what a lattice cell has of that direction
+  int owners[2] = {0, 0};
+
+  bool holds_particles() const { return width >= least_room * cell; }
 };
 
 /// Particles by place, for those in gaps.
@@ -69,6 +72,8 @@ std::optional<Gap> gap_about(const TriangleGrid& grid, const Vector3d& place, co
   const auto other = grid.first_crossing(place, place + ahead * gap.across);
   if (!other || std::abs(grid.normal(other->triangle).dot(gap.across)) < facing) return std::nullopt;
   gap.width = gap.near + other->fraction * ahead;
+  gap.owners[0] = grid.triangles()[wall->triangle].owner;
+  gap.owners[1] = grid.triangles()[other->triangle].owner;
   if (gap.width > (cells - tolerance) * gap.cell) return std::nullopt;
   return gap;
 }
@@ -132,6 +137,13 @@ bool is_even(const FilledRegion& region, std::size_t cell) {
 
 }  // namespace
 
+bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vector3d& place) {
+  const std::optional<Gap> gap = gap_about(*basin.grid, place, region.step, 1.0);
+  if (!gap || gap->holds_particles() || gap->owners[0] == gap->owners[1]) return false;
+  const auto has_film = [&](int owner) { return owner > 0 && basin.solids[owner - 1].water_film; };
+  return has_film(gap->owners[0]) || has_film(gap->owners[1]);
+}
+
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
   region.taken.assign(region.filled.size(), 0);
   Crowd crowd(region, 1.0);
@@ -147,7 +159,7 @@ void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
         one_row ? (is_even(region, c) == points_up(gap->across) ? off : gap->width - off) : std::clamp(gap->near, off, gap->width - off);
     const Vector3d place = region.position[c] + (from_wall - gap->near) * gap->across;
     region.filled[c] = 0;
-    if (gap->width < least_room * gap->cell) continue;
+    if (!gap->holds_particles()) continue;
     region.taken[c] = crowd.has_near(place, least_apart * shortest);
     if (region.taken[c]) continue;
     region.filled[c] = 1;

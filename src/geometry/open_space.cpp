@@ -103,7 +103,7 @@ void OpenSpace::flood(const std::vector<Vector3d>& from, const FreeSurface& surf
 }
 
 bool OpenSpace::reached(const Vector3d& from, const Vector3d& about) const {
-  if ((from.array() < domain_.min.array()).any() || (from.array() > domain_.max.array()).any()) return false;
+  if (!holds(from)) return false;
   int low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {  // the voxels whose centres surround the place
     const int base = static_cast<int>(std::floor((about[axis] - domain_.min[axis]) / side_[axis] - 0.5));

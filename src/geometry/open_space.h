@@ -29,6 +29,13 @@ class OpenSpace {
   /// Whether the flood passed a voxel near `about` that can be seen from `from`, a place in the domain.
   bool reached(const Vector3d& from, const Vector3d& about) const;
 
+  int dimensions() const { return dimensions_; }
+
+  /// Whether a place is in the domain.
+  bool holds(const Vector3d& place) const {
+    return (place.array() >= domain_.min.array()).all() && (place.array() <= domain_.max.array()).all();
+  }
+
   /// Whether a flood without a surface found the domain's top open.
   bool open_top() const { return open_top_; }
 

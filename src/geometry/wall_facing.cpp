@@ -13,6 +13,7 @@ namespace wavetank {
 namespace {
 
 constexpr double lift = 0.01;           // of the spacing: how far in front of a patch one looks about
+constexpr double narrow_gap = 0.6;      // of the spacing: from a wall in a narrower one no place that the flood has passed may be in sight
 constexpr std::size_t most_cuts = 24;   // lines that split one patch
 constexpr double small_element = 0.35;  // of the spacing squared: smaller elements of curved walls are joined
 constexpr double joined_cosine = 0.94;  // elements that face within 20° of each other may be
@@ -89,12 +90,17 @@ class Facer {
   }
 
  private:
-  std::vector<Polygon> halves(const Polygon& piece) const {
+  static Vector3d longest_side(const Polygon& piece) {
     Vector3d longest = Vector3d::Zero();
     for (std::size_t k = 0; k < piece.size(); ++k) {
       const Vector3d edge = piece[(k + 1) % piece.size()] - piece[k];
       if (edge.norm() > longest.norm()) longest = edge;
     }
+    return longest;
+  }
+
+  std::vector<Polygon> halves(const Polygon& piece) const {
+    const Vector3d longest = longest_side(piece);
     const double offset = longest.normalized().dot(centroid(piece));
     std::vector<Polygon> result;
     for (const double side : {1.0, -1.0}) {
@@ -110,6 +116,26 @@ class Facer {
     if (grid_.crosses(centre + 3 * grid_.tolerance() * to_fluid, from)) return false;
     for (const double ahead : {0.6, 1.0, 0.3}) {
       if (open_.reached(from, centre + ahead * spacing_ * to_fluid)) return !covered(centre, to_fluid);
+    }
+    return looks_out_of_gap(piece, from, to_fluid) && !covered(centre, to_fluid);
+  }
+
+  /// Whether a place just in front of the piece is in a narrow gap, and open space can be seen along that: between two owners' walls, or,
+  /// of a piece so large that most of it may be elsewhere, between any.
+  bool looks_out_of_gap(const Polygon& piece, const Vector3d& from, const Vector3d& to_fluid) const {
+    const auto across = grid_.first_crossing(from, from + narrow_gap * spacing_ * to_fluid);
+    if (!across) return false;
+    if (grid_.triangles()[across->triangle].owner == source_.owner && longest_side(piece).norm() <= spacing_) return false;
+    const bool flat = open_.dimensions() == 2;
+    const Vector3d along = flat ? to_fluid.cross(Vector3d::UnitY()) : to_fluid.unitOrthogonal(), aside = to_fluid.cross(along);
+    const int ways = flat ? 2 : 8;
+    for (int k = 0; k < ways; ++k) {
+      const double angle = 2 * M_PI * k / ways;
+      const Vector3d step = spacing_ * (std::cos(angle) * along + (flat ? 0 : std::sin(angle)) * aside);
+      for (Vector3d place = from; open_.holds(place + step) && !grid_.crosses(place, place + step);) {
+        place += step;
+        if (open_.reached(place, place)) return true;
+      }
     }
     return false;
   }

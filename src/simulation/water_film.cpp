@@ -7,16 +7,16 @@
 namespace wavetank {
 namespace {
 
-// Of the spacing. No particle's centre comes nearer to a wall than about half of it, so that into a gap of one spacing they fit, but not
-// into one of half of that.
-constexpr double closed_gap = 0.5, open_gap = 1.0;
+// Of the spacing. At the start a gap has particles from the second on (narrow_gaps.cpp); of one below the first it is all film, also where
+// particles are on the way out. Between, what is at the mouth would count twice, as a film's and as particles' push.
+constexpr double closed_gap = 0.88, open_gap = 0.9;
 
 // Of what walls leave of the kernel, particles fill so much of it where they fill all.
 constexpr double full = 0.85;
 
-// Of the filling at a covered face, what takes the film's place. Measured on boxes half a spacing over a floor, whose force is right at 1.2
-// in 2-D and at 1 in 3-D, to 3 %.
-constexpr double rim_pressing = 1.1;
+// Of the filling at a covered face, what takes the film's place: so much in a closed gap (2-D, 3-D), and less by the last in one of a
+// spacing. Measured on boxes a tenth to 0.85 of a spacing over a floor, whose force is right then to 2 %.
+constexpr double rim_pressing_2d = 1.35, rim_pressing_3d = 1.05, less_rim_pressing = 0.6;
 
 // Wider gaps have a film as far as particles have not come into them, up to the first of these; at the second they are open water.
 // facing_walls.cl has the same four.
@@ -52,12 +52,13 @@ constexpr double facing = -0.7;
 double emptiness(const PointValue& fluid) { return std::clamp((full - fluid.filling / std::max(fluid.shepard, 0.05)) / full, 0.0, 1.0); }
 
 /// How much of a gap is film, from how wide it is, how empty, and how full the kernel of particles at its wall.
-WaterFilm::Share film_share(double gap, double empty, double filling) {
+WaterFilm::Share film_share(double gap, double empty, double filling, int dimensions) {
   const double closed = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
   const double narrow = std::clamp((wide_gap - gap) / (wide_gap - narrow_gap), 0.0, 1.0);
   const double film = std::max(closed, narrow * empty);
   // particles beside a covered face press on its rim by 2 p Σ W V; about half of that belongs to the side beside it
-  return {film, std::min(film, 1.0 - rim_pressing * std::min(filling, 1.0 / rim_pressing))};
+  const double pressing = ((dimensions == 2 ? rim_pressing_2d : rim_pressing_3d) - less_rim_pressing * std::min(gap, 1.0)) * filling;
+  return {film, std::min(film, std::max(1.0 - pressing, 0.0))};
 }
 
 Vector3d nearest_on_segment(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
@@ -258,7 +259,7 @@ void WaterFilm::share(Film& film) const {
     double empty = emptiness(film.fluid[e]);
     for (const int other : surfaces_[film.body].beside[e])
       if (film.covers[other].covered) empty = std::max(empty, emptiness(film.fluid[other]));
-    cover.share = film_share(cover.gap, empty, film.fluid[e].filling);
+    cover.share = film_share(cover.gap, empty, film.fluid[e].filling, dimensions_);
   }
 }
 

@@ -44,6 +44,13 @@ inline MeshSource source(const std::string& uri) {
   return result;
 }
 
+inline BodyCase box_body(const std::string& name, const Vector3d& low, const Vector3d& high) {
+  BodyCase body;
+  body.name = name;
+  body.shape = Box{low, high};
+  return body;
+}
+
 #define EXPECT_ERROR(call, part)                                                       \
   do {                                                                                 \
     const std::string message = error_of([&] { call; });                               \

@@ -42,13 +42,6 @@ TriangleMesh plate(double x, double y0, double y1, double z0, double z1) {
   return mesh;
 }
 
-BodyCase box_body(const std::string& name, const Vector3d& low, const Vector3d& high) {
-  BodyCase body;
-  body.name = name;
-  body.shape = Box{low, high};
-  return body;
-}
-
 /// Links as a user writes them: meshes in millimetres beside the URDF, one mirrored, one stretched.
 TEST_F(LayoutFluid, MeshesOfARobotAreMirroredAndStretched) {
   TriangleMesh wedge;
@@ -155,6 +148,23 @@ TEST_F(LayoutFluid, ObstaclesStayEmpty) {
     for (const Vector3d& p : layout.particles) EXPECT_GT(distance(layout.meshes[1], p), 0.02);
     for (const WallElement& element : layout.lid) EXPECT_NEAR(element.centre.z(), 0.4, 1e-9) << "no lid at an obstacle";
   }
+}
+
+/// Packing would push the water off the mouth of a gap by a lid there and by the film as well, and the tank ring by it.
+TEST_F(LayoutFluid, NoLidAtAGapThatAFilmFills) {
+  const auto upright = [](double gap, Motion motion, bool water_film) {
+    Case checked = box_case(Vector3d(0.8, 0, 0.5), 0.3, 0.02);
+    BodyCase box = box_body("box", Vector3d(0.2, 0, 0.02 * gap), Vector3d(0.6, 0, 0.02 * gap + 0.12));
+    box.motion = motion;
+    box.rigid.water_film = water_film;
+    checked.bodies = {box};
+    std::size_t count = 0;
+    for (const WallElement& element : lay_out(checked).lid) count += std::abs(element.normal.x()) > 0.5 ? 1 : 0;
+    return count;
+  };
+  for (const double gap : {0.1, 0.3, 0.52, 0.6, 0.75, 0.89}) EXPECT_EQ(upright(gap, Motion::fixed, true), 0u) << gap << " spacings";
+  EXPECT_EQ(upright(0.75, Motion::free, true), 0u);
+  EXPECT_EQ(upright(0.75, Motion::free, false), 2u) << "sealed: at either end";
 }
 
 /// A gap has particles only as they fit, whatever stands about it.

@@ -270,6 +270,62 @@ TEST_F(LayoutWalls, ABodyFarOutOfTheTankIsSampledInItOnly) {
   EXPECT_ERROR(lay_out(checked), "too far for a particle spacing");
 }
 
+/// Of the facets and of the elements of an owner that face this way, the whole size, m² (2-D: m).
+std::pair<double, double> sizes_facing(const Layout& layout, int owner, const Vector3d& way, int dimensions) {
+  std::pair<double, double> sizes(0, 0);
+  for (const Facet& facet : layout.facets) {
+    if (facet.owner != owner || facet.normal.dot(way) < 0.99) continue;
+    const Vector3d one = facet.corners[1] - facet.corners[0], other = facet.corners[2] - facet.corners[0];
+    sizes.first += dimensions == 2 ? one.norm() : 0.5 * one.cross(other).norm();
+  }
+  for (const WallElement& element : layout.walls)
+    if (element.owner == owner && element.normal.dot(way) > 0.99) sizes.second += element.area;
+  return sizes;
+}
+
+/// From the middle of a face that a gap covers no open space was in sight: a whole floor was lost to a box a fifth of a spacing over it.
+TEST_F(LayoutWalls, FacesAreWholeHoweverNarrowTheGapBeforeThem) {
+  for (const int dimensions : {2, 3})
+    for (const double gap : {0.02, 0.1, 0.2, 0.29, 0.31, 0.7}) {
+      const double across = dimensions == 3 ? 0.4 : 0.0, inset = dimensions == 3 ? 0.1 : 0.0;
+      Case checked = box_case(Vector3d(0.8, across, 0.4), 0.3, 0.02);
+      const double low = 0.02 * gap;
+      checked.bodies = {box_body("lower", Vector3d(0.2, inset, low), Vector3d(0.6, across - inset, low + 0.08)),
+                        box_body("upper", Vector3d(0.2, inset, 2 * low + 0.08), Vector3d(0.6, across - inset, 2 * low + 0.16))};
+      const Layout layout = lay_out(checked);
+      const double face = dimensions == 3 ? 0.4 * 0.2 : 0.4, floor = dimensions == 3 ? 0.8 * 0.4 : 0.8;
+      for (const auto& [owner, way, size] :
+           {std::tuple(0, -1, floor), std::tuple(1, 1, face), std::tuple(1, -1, face), std::tuple(2, 1, face), std::tuple(2, -1, face)}) {
+        // of a body the normals point into it
+        const double sign = owner == 0 ? way : -way;
+        const auto [of_facets, of_elements] = sizes_facing(layout, owner, sign * Vector3d::UnitZ(), dimensions);
+        EXPECT_NEAR(of_facets, size, 1e-6 * size) << "owner " << owner << ", way " << way << ", gap " << gap << ", " << dimensions << "-D";
+        EXPECT_NEAR(of_elements, size, 1e-6 * size)
+            << "owner " << owner << ", way " << way << ", gap " << gap << ", " << dimensions << "-D";
+      }
+    }
+}
+
+/// Likewise in one mesh, as far as its facets go: a slab a fifth of a spacing over the floor's middle.
+TEST_F(LayoutWalls, AFloorUnderASlabOfItsOwnMeshIsWhole) {
+  TriangleMesh tank = box_mesh(Box{Vector3d::Zero(), Vector3d(0.8, 0.4, 0.4)}, true, "tank");
+  append(tank, box_mesh(Box{Vector3d(0.2, 0.1, 0.004), Vector3d(0.6, 0.3, 0.1)}, false, "slab"));
+  Case checked = mesh_case(tank, 0.02);
+  checked.fluid.fill = {FloodFill{Vector3d(0.1, 0.05, 0.1), 0.3}};
+  const Layout layout = lay_out(checked);
+  EXPECT_NEAR(sizes_facing(layout, 0, -Vector3d::UnitZ(), 3).first, 0.8 * 0.4 + 0.4 * 0.2, 1e-6);
+}
+
+/// But where bodies lie on each other no water is: those faces are no walls.
+TEST_F(LayoutWalls, FacesOfBodiesThatTouchAreNone) {
+  Case checked = box_case(Vector3d(0.8, 0.4, 0.4), 0.3, 0.02);
+  checked.bodies = {box_body("lower", Vector3d(0.2, 0.1, 0), Vector3d(0.6, 0.3, 0.08)),
+                    box_body("upper", Vector3d(0.2, 0.1, 0.08), Vector3d(0.6, 0.3, 0.16))};
+  const Layout layout = lay_out(checked);
+  EXPECT_NEAR(sizes_facing(layout, 1, -Vector3d::UnitZ(), 3).first, 0, 1e-9);
+  EXPECT_NEAR(sizes_facing(layout, 0, -Vector3d::UnitZ(), 3).second, 0.8 * 0.4 - 0.4 * 0.2, 1e-6);
+}
+
 TEST_F(LayoutWalls, SolidsOfOneBodyThatTouchAreClosedToTheWater) {
   // A post on a plinth with no common vertices, and a block that shares an edge with the plinth.
   Case checked = box_case(Vector3d(1, 1, 0.8), 0.7, 0.05);

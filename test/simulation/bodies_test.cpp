@@ -328,7 +328,7 @@ using BodyBits = SimulationTest;
 
 TEST_F(BodyBits, ResetAndSnapshotGoOnToTheSameBits) {
   constexpr int half = 50;
-  for (const WallElements elements : {WallElements::facet, WallElements::numerical, WallElements::semi_analytical}) {
+  for (const WallElements elements : {WallElements::facet, WallElements::numerical}) {
     Case scene = busy_tank(elements);
     equip(scene);
     Simulation whole(scene);

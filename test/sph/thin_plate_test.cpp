@@ -18,7 +18,7 @@ constexpr Kind every_kind[] = {
 /// A tank with a plate across it at x = 0.4 to 0.4 + `thickness`, filled to a depth on either side.
 Case parted_tank(int dimensions, double thickness, double left, double right, double gap) {
   const double width = dimensions == 3 ? 0.2 : 0.0;
-  Case scene = box_case(Vector3d(0.8, width, 0.4), left, spacing);
+  Case scene = box_case(Vector3d(0.8, width, 0.4), left, dimensions == 3 ? 0.025 : spacing);
   scene.fluid.density = density;
   const bool one_depth = left == right;
   scene.fluid.fill = {Box{Vector3d::Zero(), Vector3d(one_depth ? 0.8 : 0.4, width, left)}};
@@ -63,7 +63,7 @@ void rest(Tank& tank, double duration, int packing) {
 TEST(ThinPlate, PartsWaterOfTwoDepths) {
   for (const int dimensions : {2, 3})
     for (const auto& [name, elements] : every_kind) {
-      const double left = 0.3, right = 0.16, thickness = 0.004;
+      const double left = 0.3, right = dimensions == 3 ? 0.15 : 0.16, thickness = 0.004;
       Case scene = parted_tank(dimensions, thickness, left, right, 0);
       scene.numerics.walls.elements = elements;
       Tank tank(scene);
