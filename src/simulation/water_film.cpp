@@ -9,10 +9,10 @@ namespace {
 
 // Of the spacing. At the start a gap has particles from the second on (narrow_gaps.cpp); of one below the first it is all film, also where
 // particles are on the way out. Between, what is at the mouth would count twice, as a film's and as particles' push.
-constexpr double closed_gap = 0.88, open_gap = 0.9;
+constexpr double closed_gap = 0.5, open_gap = 0.9;
 
-// Of what walls leave of the kernel, particles fill so much of it where they fill all.
-constexpr double full = 0.85;
+// Of what walls leave of the kernel, particles fill so much of it where they fill all; and at the mouth of a gap that has none.
+constexpr double full = 0.85, at_mouth = 0.65;
 
 // Of the filling at a covered face, what takes the film's place: so much in a closed gap (2-D, 3-D), and less by the last in one of a
 // spacing. Measured on boxes a tenth to 0.85 of a spacing over a floor, whose force is right then to 2 %.
@@ -49,7 +49,9 @@ constexpr double opposite = -0.5;
 constexpr double facing = -0.7;
 
 /// How much of the kernel at a wall particles lack where walls leave room for them.
-double emptiness(const PointValue& fluid) { return std::clamp((full - fluid.filling / std::max(fluid.shepard, 0.05)) / full, 0.0, 1.0); }
+double emptiness(const PointValue& fluid) {
+  return std::clamp((full - fluid.filling / std::max(fluid.shepard, 0.05)) / (full - at_mouth), 0.0, 1.0);
+}
 
 /// How much of a gap is film, from how wide it is, how empty, and how full the kernel of particles at its wall.
 WaterFilm::Share film_share(double gap, double empty, double filling, int dimensions) {
@@ -194,7 +196,9 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
     }
     // as far as the reading is sound
     const PointValue& beside = film.fluid[covered[k]];
-    const double contact = as_particles * std::clamp(2.0 * beside.filling / std::max(beside.shepard, 0.05) - 1.0, 0.0, 1.0);
+    const bool holds_particles = film.covers[covered[k]].gap >= open_gap;  // in a narrower one they have the film's pressure, not it theirs
+    const double contact =
+        holds_particles ? as_particles * std::clamp(2.0 * beside.filling / std::max(beside.shepard, 0.05) - 1.0, 0.0, 1.0) : 0.0;
     sum += contact;
     right[row] += contact * pressures[covered[k]];
     matrix.emplace_back(row, row, sum);

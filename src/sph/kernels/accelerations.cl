@@ -50,6 +50,9 @@ INLINE void accelerate_tile(__constant const parameters_t* p, int first, int cou
     stand_at(walls, state, stride, i);
     LOOK_THROUGH(*walls, a.near, k);
     sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
+#if BOTH_RATES
+    b.divergence = divergence_in_film(p, walls, film, images, state[FIELD_COMPRESSION * stride + i], b.x, b.y, b.z, b.divergence);
+#endif
 #endif
     const real shepard = bounded_shepard(b.shepard);
     const real per_mass = R(1.0) / (shepard * b.density);

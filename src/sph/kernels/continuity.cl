@@ -5,6 +5,7 @@
 #include "equation_of_state.cl"
 #include "scheme.cl"
 #include "continuity_sums.cl"
+#include "film.cl"
 #define SWEEP_PARTICLES
 #define SWEEP_WALLS
 
@@ -56,7 +57,7 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #include "sweep.cl"
 
 __kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
-                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* gradient, __global const int* blocks, __global real* rates) {
+                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* film, __global const real* gradient, __global const int* blocks, __global real* rates) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};
@@ -92,6 +93,8 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+    b.divergence = divergence_in_film(p, &walls, film, images, state[FIELD_COMPRESSION * stride + i], a.near.places.x[k], a.near.places.y[k],
+                                      a.near.places.z[k], b.divergence);
 #endif
     write_continuity(p, state, stride, i, &sums, k, b.divergence, b.shepard, rates);
   }

@@ -17,6 +17,7 @@
 // As water_film.cpp has them: the filling of the room that walls leave where particles fill a gap; and of the spacing, up to the first the particles in a
 // gap are counted, and from the second on it is filled as any water.
 #define FULL_GAP R(0.85)
+#define MOUTH_GAP R(0.65)
 #define NARROW_GAP R(2.0)
 #define WIDE_GAP R(2.5)
 
@@ -149,7 +150,7 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   const real room = fmax(R(1.0) - b.own - behind, R(0.05));
   const real closed = fmin(fmax((FILM_OPEN - gap) / (FILM_OPEN - FILM_CLOSED), R(0.0)), R(1.0));
   const real narrow = fmin(fmax((WIDE_GAP - gap) / (WIDE_GAP - NARROW_GAP), R(0.0)), R(1.0));
-  const real film = fmax(closed, narrow * fmin(fmax(R(1.0) - fit.weight / (FULL_GAP * room), R(0.0)), R(1.0)));
+  const real film = fmax(closed, narrow * fmin(fmax((FULL_GAP - fit.weight / room) / (FULL_GAP - MOUTH_GAP), R(0.0)), R(1.0)));
   const real crowded = narrow * fmax(fit.weight - room, R(0.0));
   const real open = (R(1.0) - film) * (behind > crowded ? R(1.0) - crowded / behind : R(0.0));
   places[s] = x;

@@ -9,9 +9,14 @@
 #define FILM_VOLUME 3
 #define FILM_PRESSURE 4
 
-// Σ (own + share p_f) F V (x_f − x) over the lumps, F but for p->slope_scale.
-INLINE vector_t film_about(__constant const parameters_t* p, const walls_t* walls, __global const real* film, real own, real share, real x, real y, real z) {
-  vector_t sum = make_vector(R(0.0), R(0.0), R(0.0));
+typedef struct {
+  vector_t push;          // Σ (own + share p_f) F V (x_f − x)
+  real filled, pressure;  // Σ W V, Σ p_f W V
+} film_sums_t;
+
+// Adds those over the lumps, F and W but for p->slope_scale and p->kernel_scale.
+INLINE void add_film_about(film_sums_t* sums, __constant const parameters_t* p, const walls_t* walls, __global const real* film, real own, real share, real x,
+                           real y, real z) {
   const int blocks = (int)film[0];
   for (int b = 0; b < blocks; ++b) {
     __global const real* block = film + FILM_BLOCKS + FILM_BLOCK * b;
@@ -20,27 +25,54 @@ INLINE vector_t film_about(__constant const parameters_t* p, const walls_t* wall
       __global const real* lump = film + FILM_BLOCKS + FILM_BLOCK * blocks + FILM_LUMP * k;
       const real rx = lump[0] - x, ry = lump[1] - y, rz = lump[2] - z;
       const real t = fmax(R(1.0) - sqrt(rx * rx + ry * ry + rz * rz) * p->inverse_support, R(0.0));
-      real weight = (own + share * lump[FILM_PRESSURE]) * t * t * t * lump[FILM_VOLUME];
+      real volume = lump[FILM_VOLUME];
 #if THIN_WALLS
-      if (has_barriers(p, walls, x, y, z) && hidden_in_cell(p, walls, x, y, z, rx, ry, rz) != NO_OWNER) weight *= transparency_at(p, walls, x, y, z);
+      if (has_barriers(p, walls, x, y, z) && hidden_in_cell(p, walls, x, y, z, rx, ry, rz) != NO_OWNER) volume *= transparency_at(p, walls, x, y, z);
 #endif
-      sum = make_vector(sum.x + weight * rx, sum.y + weight * ry, sum.z + weight * rz);
+      const real weight = (own + share * lump[FILM_PRESSURE]) * t * t * t * volume, value = t * t * t * t * (R(5.0) - R(4.0) * t) * volume;
+      sums->push = make_vector(sums->push.x + weight * rx, sums->push.y + weight * ry, sums->push.z + weight * rz);
+      sums->filled += value;
+      sums->pressure += value * lump[FILM_PRESSURE];
     }
   }
-  return sum;
 }
 
-INLINE vector_t film_sum(__constant const parameters_t* p, const walls_t* walls, __global const real* film, __global const real* images, real own, real share,
-                         real x, real y, real z) {
-  vector_t sum = film_about(p, walls, film, own, share, x, y, z);
+INLINE film_sums_t film_sums(__constant const parameters_t* p, const walls_t* walls, __global const real* film, __global const real* images, real own,
+                             real share, real x, real y, real z) {
+  film_sums_t sums = {make_vector(R(0.0), R(0.0), R(0.0)), R(0.0), R(0.0)};
+  add_film_about(&sums, p, walls, film, own, share, x, y, z);
 #if IMAGES
   for (int k = 0; k < p->images && film[0] > R(0.0); ++k) {
     __global const real* image = images + k * IMAGE_COUNT;
     if (image[IMAGE_MIRRORED] > R(0.5) || !near_image(p, image, x, y, z)) continue;
     const vector_t seen = seen_by_image(image, x, y, z);
-    const vector_t more = film_about(p, walls, film, own, share, seen.x, seen.y, seen.z);
-    sum = make_vector(sum.x + more.x, sum.y + more.y, sum.z + more.z);
+    add_film_about(&sums, p, walls, film, own, share, seen.x, seen.y, seen.z);
   }
 #endif
-  return make_vector(p->slope_scale * sum.x, p->slope_scale * sum.y, p->slope_scale * sum.z);
+  sums.push = make_vector(p->slope_scale * sums.push.x, p->slope_scale * sums.push.y, p->slope_scale * sums.push.z);
+  sums.filled *= p->kernel_scale;
+  sums.pressure *= p->kernel_scale;
+  return sums;
+}
+
+INLINE vector_t film_push(__constant const parameters_t* p, const walls_t* walls, __global const real* film, __global const real* images, real own, real share,
+                          real x, real y, real z) {
+  return film_sums(p, walls, film, images, own, share, x, y, z).push;
+}
+
+// The divergence about a particle with what the film does to it. One that a gap has closed about is in the film, which takes what it has too much: its
+// pressure goes to the film's in some steps, and walls that come together do not press it without end. The film is all about it then; one at the gap's mouth
+// has it on one side.
+#define LEAK_RATE R(0.5)  // of c₀/h
+#define ONE_SIDED R(1.0)  // of h |Σ ∇W V|/Σ W V; at a mouth 1.4
+#define ALL_ABOUT R(0.5)
+INLINE real divergence_in_film(__constant const parameters_t* p, const walls_t* walls, __global const real* film, __global const real* images, real compression,
+                               real x, real y, real z, real divergence) {
+  if (!(film[0] > R(0.0))) return divergence;
+  const film_sums_t sums = film_sums(p, walls, film, images, R(1.0), R(0.0), x, y, z);
+  if (!(sums.filled > R(1.0e-3))) return divergence;
+  const real side = p->smoothing_length * sqrt(dot3(sums.push, sums.push)) / sums.filled;
+  const real within = fmin(fmax((ONE_SIDED - side) / (ONE_SIDED - ALL_ABOUT), R(0.0)), R(1.0));
+  const real leak = LEAK_RATE * p->sound_speed * p->inverse_smoothing * (compression - sums.pressure / (sums.filled * p->bulk_modulus));
+  return divergence + within * (leak - divergence);
 }

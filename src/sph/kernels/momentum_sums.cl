@@ -413,7 +413,7 @@ INLINE void take_pair_sums(wall_sweep_t* b, __constant const parameters_t* p, co
 
 // What the film presses on particle i with, once its pressure is known; added to the other sums.
 INLINE vector_t add_film(wall_sweep_t* b, __constant const parameters_t* p, __global const real* film, __global const real* images) {
-  const vector_t push = film_sum(p, b->walls, film, images, b->pressure, R(1.0), b->x, b->y, b->z);
+  const vector_t push = film_push(p, b->walls, film, images, b->pressure, R(1.0), b->x, b->y, b->z);
   b->force_x += push.x;
   b->force_y += push.y;
   b->force_z += push.z;

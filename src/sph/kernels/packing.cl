@@ -55,7 +55,7 @@ __kernel void packing(__constant const parameters_t* p, int count, __global cons
     stand_at(&walls, state, stride, first + k);
     LOOK_THROUGH(walls, a.near, k);
 #if !GHOSTS
-    const vector_t filled = film_sum(p, &walls, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
+    const vector_t filled = film_push(p, &walls, film, images, R(1.0), R(0.0), a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
     b.error_x += filled.x;
     b.error_y += filled.y;
     b.error_z += filled.z;

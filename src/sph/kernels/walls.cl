@@ -240,7 +240,7 @@ INLINE contact_t see_wall(__constant const parameters_t* p, const walls_t* walls
 // Two walls face each other if the cosine of their normals is less. In gaps between them narrower than this, in spacings, there is no room for particles, and
 // from the second on there is: between, the water film (src/simulation/water_film.h) goes over into particles.
 #define FACING R(-0.7)
-#define FILM_CLOSED R(0.88)
+#define FILM_CLOSED R(0.5)
 #define FILM_OPEN R(0.9)
 
 // How near the point is to the wall, at the least: what the guard asks. Beside a wall it counts too, for a point that comes round an edge.
