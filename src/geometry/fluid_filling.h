@@ -17,7 +17,7 @@ struct Solid {
   const TriangleMesh* mesh = nullptr;
   Outline outline;  ///< in 2-D
   int dimensions = 3;
-  bool water_film = true;  ///< in gaps too narrow for particles
+  bool is_free = false;
 
   bool contains(const Vector3d& point) const { return dimensions == 2 ? inside(outline, point) : inside(*mesh, point); }
   Box bounds() const { return dimensions == 2 ? bounding_box(outline) : mesh->bounding_box(); }
@@ -32,6 +32,7 @@ struct Basin {
   Vector3d up = Vector3d::UnitZ();     ///< unit, against gravity
   Top top;                             ///< of the tank
   std::array<bool, 3> periodic{};      ///< along x, y, z: the domain repeats itself
+  bool has_films = true;               ///< whether particles feel water in gaps too narrow for them
 };
 
 /// A free surface that is not level, by columns of a lattice (x fastest): their cells below it are stretched so that they end at it.
@@ -85,7 +86,7 @@ void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 /// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region);
 
-/// Whether a place is in a gap beside a body that is too narrow for particles, but for a film of water.
+/// Whether a place is in a gap beside a body that is too narrow for particles, but for a film that they feel: none at a free body at rest.
 bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vector3d& place);
 
 /// Throws Error if the fluid can flow out of the tank's sides or bottom below the region's surface.

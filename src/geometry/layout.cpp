@@ -149,9 +149,10 @@ Basin make_basin(const Case& checked, const std::vector<Part>& parts, const Box&
   basin.up = upward(checked);
   basin.top = top_of(checked);
   basin.periodic = checked.tank.periodic;
+  basin.has_films = checked.numerics.gradients == Gradients::sph;
   for (std::size_t b = 0; b < checked.bodies.size(); ++b) {
     basin.solids.push_back(
-        {checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions, checked.bodies[b].rigid.water_film});
+        {checked.bodies[b].name, &parts[b + 1].mesh, parts[b + 1].outline, checked.dimensions, checked.bodies[b].motion == Motion::free});
   }
   return basin;
 }

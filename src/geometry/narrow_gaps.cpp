@@ -140,8 +140,8 @@ bool is_even(const FilledRegion& region, std::size_t cell) {
 bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vector3d& place) {
   const std::optional<Gap> gap = gap_about(*basin.grid, place, region.step, 1.0);
   if (!gap || gap->holds_particles() || gap->owners[0] == gap->owners[1]) return false;
-  const auto has_film = [&](int owner) { return owner > 0 && basin.solids[owner - 1].water_film; };
-  return has_film(gap->owners[0]) || has_film(gap->owners[1]);
+  const auto is_free = [&](int owner) { return owner > 0 && basin.solids[owner - 1].is_free; };
+  return basin.has_films && !is_free(gap->owners[0]) && !is_free(gap->owners[1]);
 }
 
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {

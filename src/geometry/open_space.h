@@ -30,6 +30,8 @@ class OpenSpace {
   bool reached(const Vector3d& from, const Vector3d& about) const;
 
   int dimensions() const { return dimensions_; }
+  /// The longest side of a voxel, m.
+  double voxel() const { return side_.maxCoeff(); }
 
   /// Whether a place is in the domain.
   bool holds(const Vector3d& place) const {

@@ -13,7 +13,8 @@ namespace wavetank {
 namespace {
 
 constexpr double lift = 0.01;           // of the spacing: how far in front of a patch one looks about
-constexpr double narrow_gap = 0.6;      // of the spacing: from a wall in a narrower one no place that the flood has passed may be in sight
+constexpr double narrow_gap = 1.1;      // of the flood's voxels: from a wall in a narrower one no place that it has passed may be in sight
+constexpr double large_piece = 3;       // of the spacing: elements are smaller
 constexpr std::size_t most_cuts = 24;   // lines that split one patch
 constexpr double small_element = 0.35;  // of the spacing squared: smaller elements of curved walls are joined
 constexpr double joined_cosine = 0.94;  // elements that face within 20° of each other may be
@@ -123,16 +124,18 @@ class Facer {
   /// Whether a place just in front of the piece is in a narrow gap, and open space can be seen along that: between two owners' walls, or,
   /// of a piece so large that most of it may be elsewhere, between any.
   bool looks_out_of_gap(const Polygon& piece, const Vector3d& from, const Vector3d& to_fluid) const {
-    const auto across = grid_.first_crossing(from, from + narrow_gap * spacing_ * to_fluid);
+    const Vector3d ahead = narrow_gap * open_.voxel() * to_fluid;
+    const auto across = grid_.first_crossing(from, from + ahead);
     if (!across) return false;
-    if (grid_.triangles()[across->triangle].owner == source_.owner && longest_side(piece).norm() <= spacing_) return false;
+    if (grid_.triangles()[across->triangle].owner == source_.owner && longest_side(piece).norm() <= large_piece * spacing_) return false;
+    const Vector3d middle = from + 0.5 * across->fraction * ahead;
     const bool flat = open_.dimensions() == 2;
     const Vector3d along = flat ? to_fluid.cross(Vector3d::UnitY()) : to_fluid.unitOrthogonal(), aside = to_fluid.cross(along);
     const int ways = flat ? 2 : 8;
     for (int k = 0; k < ways; ++k) {
       const double angle = 2 * M_PI * k / ways;
       const Vector3d step = spacing_ * (std::cos(angle) * along + (flat ? 0 : std::sin(angle)) * aside);
-      for (Vector3d place = from; open_.holds(place + step) && !grid_.crosses(place, place + step);) {
+      for (Vector3d place = middle; open_.holds(place + step) && !grid_.crosses(place, place + step);) {
         place += step;
         if (open_.reached(place, place)) return true;
       }

@@ -11,8 +11,9 @@ namespace {
 // particles are on the way out. Between, what is at the mouth would count twice, as a film's and as particles' push.
 constexpr double closed_gap = 0.5, open_gap = 0.9;
 
-// Of what walls leave of the kernel, particles fill so much of it where they fill all; and at the mouth of a gap that has none.
-constexpr double full = 0.85, at_mouth = 0.65;
+// Of what walls leave of the kernel, particles fill so much of it where they fill all; and up to the second at the mouth of a gap of a
+// spacing that has none. In one of the third they may be as few as that, and are rows on their way out: it counts less from a spacing on.
+constexpr double full = 0.85, mouth = 0.65, gap_of_rows = 1.5;
 
 // Of the filling at a covered face, what takes the film's place: so much in a closed gap (2-D, 3-D), and less by the last in one of a
 // spacing. Measured on boxes a tenth to 0.85 of a spacing over a floor, whose force is right then to 2 %.
@@ -49,13 +50,17 @@ constexpr double opposite = -0.5;
 constexpr double facing = -0.7;
 
 /// How much of the kernel at a wall particles lack where walls leave room for them.
-double emptiness(const PointValue& fluid) {
+double emptiness(const PointValue& fluid, double gap) {
+  const double at_mouth = mouth * std::clamp((gap_of_rows - gap) / (gap_of_rows - 1.0), 0.0, 1.0);
   return std::clamp((full - fluid.filling / std::max(fluid.shepard, 0.05)) / (full - at_mouth), 0.0, 1.0);
 }
 
+/// How far a gap is too narrow for particles.
+double closedness(double gap) { return std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0); }
+
 /// How much of a gap is film, from how wide it is, how empty, and how full the kernel of particles at its wall.
 WaterFilm::Share film_share(double gap, double empty, double filling, int dimensions) {
-  const double closed = std::clamp((open_gap - gap) / (open_gap - closed_gap), 0.0, 1.0);
+  const double closed = closedness(gap);
   const double narrow = std::clamp((wide_gap - gap) / (wide_gap - narrow_gap), 0.0, 1.0);
   const double film = std::max(closed, narrow * empty);
   // particles beside a covered face press on its rim by 2 p Σ W V; about half of that belongs to the side beside it
@@ -196,9 +201,10 @@ std::vector<double> WaterFilm::film_pressures(const Film& film, const Vector3d& 
     }
     // as far as the reading is sound
     const PointValue& beside = film.fluid[covered[k]];
-    const bool holds_particles = film.covers[covered[k]].gap >= open_gap;  // in a narrower one they have the film's pressure, not it theirs
+    // in a gap too narrow for particles they have the film's pressure, not it theirs
+    const double holds_particles = std::clamp((film.covers[covered[k]].gap - open_gap) / (1.0 - open_gap), 0.0, 1.0);
     const double contact =
-        holds_particles ? as_particles * std::clamp(2.0 * beside.filling / std::max(beside.shepard, 0.05) - 1.0, 0.0, 1.0) : 0.0;
+        holds_particles * as_particles * std::clamp(2.0 * beside.filling / std::max(beside.shepard, 0.05) - 1.0, 0.0, 1.0);
     sum += contact;
     right[row] += contact * pressures[covered[k]];
     matrix.emplace_back(row, row, sum);
@@ -260,9 +266,9 @@ void WaterFilm::share(Film& film) const {
     Cover& cover = film.covers[e];
     if (!cover.covered) continue;
     // at the mouth the particles before it fill a part of the kernel: what is behind tells whether the gap is empty
-    double empty = emptiness(film.fluid[e]);
+    double empty = emptiness(film.fluid[e], cover.gap);
     for (const int other : surfaces_[film.body].beside[e])
-      if (film.covers[other].covered) empty = std::max(empty, emptiness(film.fluid[other]));
+      if (film.covers[other].covered) empty = std::max(empty, emptiness(film.fluid[other], film.covers[other].gap));
     cover.share = film_share(cover.gap, empty, film.fluid[e].filling, dimensions_);
   }
 }
@@ -286,15 +292,16 @@ void WaterFilm::add(const Film& film, const std::optional<FrameMotion>& frame, S
     };
     add(body, force);
     add(other, -force);
-    if (gap < thinnest_lump) continue;
     const double opening = (velocity(body, place) - velocity(other, place)).dot(normal);  // m/s
     const bool held = !world_.is_free(body) && (other == 0 || !world_.is_free(other));    // in the tank, which its own axes go with
     const double scale = std::max(fast * std::sqrt(gravity.norm() * spacing_), least_fast * sound_speed_);
-    const double felt = std::clamp((held ? 1.0 : 0.0) - opening / scale, 0.0, 1.0);
-    const int layers = static_cast<int>(std::ceil(gap / thickest_lump));
-    const double thickness = gap * spacing_ / layers;
+    const double felt = gap < thinnest_lump ? 0.0 : std::clamp((held ? 1.0 : 0.0) - opening / scale, 0.0, 1.0);
+    const double width = std::max(gap, thinnest_lump);
+    const int layers = static_cast<int>(std::ceil(width / thickest_lump));
+    const double thickness = width * spacing_ / layers, volume = thickness * element.area;
     for (int k = 0; k < layers; ++k)
-      state.lumps.push_back({place - (k + 0.5) * thickness * normal, felt * share.film * thickness * element.area, pressures[e]});
+      state.lumps.push_back(
+          {place - (k + 0.5) * thickness * normal, felt * share.film * volume, pressures[e], closedness(gap) * share.film * volume});
   }
 }
 

@@ -27,7 +27,8 @@ std::vector<Real> film_values(const std::vector<FilmLump>& lumps, const Discreti
   }
   for (const FilmLump& lump : lumps) {
     const Eigen::Vector3d place = lump.place - discretisation.origin;
-    for (const double value : {place.x(), place.y(), place.z(), lump.volume, lump.pressure}) values.push_back(static_cast<Real>(value));
+    for (const double value : {place.x(), place.y(), place.z(), lump.volume, lump.pressure, lump.closed})
+      values.push_back(static_cast<Real>(value));
   }
   return values;
 }

@@ -33,8 +33,8 @@ FirstOrder first_order(Unpacked& from) {
 
 std::vector<FilmLump> lumps_of(const std::vector<double>& numbers) {
   std::vector<FilmLump> lumps;
-  for (std::size_t k = 0; k + 4 < numbers.size(); k += 5)
-    lumps.push_back({Eigen::Vector3d(numbers[k], numbers[k + 1], numbers[k + 2]), numbers[k + 3], numbers[k + 4]});
+  for (std::size_t k = 0; k + 5 < numbers.size(); k += 6)
+    lumps.push_back({Eigen::Vector3d(numbers[k], numbers[k + 1], numbers[k + 2]), numbers[k + 3], numbers[k + 4], numbers[k + 5]});
   return lumps;
 }
 

@@ -154,7 +154,7 @@ class PartedSolver final : public Solver {
   void set_film(const std::vector<FilmLump>& lumps) override {
     std::vector<double> numbers;
     for (const FilmLump& lump : lumps)
-      numbers.insert(numbers.end(), {lump.place.x(), lump.place.y(), lump.place.z(), lump.volume, lump.pressure});
+      numbers.insert(numbers.end(), {lump.place.x(), lump.place.y(), lump.place.z(), lump.volume, lump.pressure, lump.closed});
     if (numbers == film_) return;
     film_ = numbers;
     ask(Packed().value(PartOrder::film).values(numbers));

@@ -306,6 +306,17 @@ TEST_F(LayoutWalls, FacesAreWholeHoweverNarrowTheGapBeforeThem) {
     }
 }
 
+/// In a tank of so many cells that the flood goes by whole spacings.
+TEST_F(LayoutWalls, FacesAreWholeAlsoWhereTheFloodIsCoarse) {
+  Case checked = box_case(Vector3d(0.8, 0, 0.4), 0.3, 0.001);
+  checked.bodies = {box_body("lower", Vector3d(0.2, 0, 0.0008), Vector3d(0.6, 0, 0.0808)),
+                    box_body("upper", Vector3d(0.2, 0, 0.0816), Vector3d(0.6, 0, 0.16))};
+  const Layout layout = lay_out(checked);
+  EXPECT_NEAR(sizes_facing(layout, 0, -Vector3d::UnitZ(), 2).first, 0.8, 1e-6);
+  for (const int owner : {1, 2})
+    for (const double way : {1.0, -1.0}) EXPECT_NEAR(sizes_facing(layout, owner, way * Vector3d::UnitZ(), 2).second, 0.4, 1e-6);
+}
+
 /// Likewise in one mesh, as far as its facets go: a slab a fifth of a spacing over the floor's middle.
 TEST_F(LayoutWalls, AFloorUnderASlabOfItsOwnMeshIsWhole) {
   TriangleMesh tank = box_mesh(Box{Vector3d::Zero(), Vector3d(0.8, 0.4, 0.4)}, true, "tank");

@@ -86,8 +86,9 @@ class PointSet {
 /// Water in a gap where there are no particles, but where those beside it feel some.
 struct FilmLump {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of its middle, in the case's coordinates
-  double volume = 0;                                ///< m³ (2-D: m²)
+  double volume = 0;                                ///< m³ (2-D: m²), that is felt
   double pressure = 0;                              ///< Pa, gauge
+  double closed = 0;  ///< m³ (2-D: m²) of a gap too narrow for particles: those that it has caught have the film's pressure
 };
 
 /// In the frame that the fluid is solved in.
@@ -237,7 +238,8 @@ class Solver {
 
   /// Places, velocities and accelerations of the walls, from the next step on.
   virtual void set_wall_motions(const WallMotions& motions) = 0;
-  /// The water in gaps too narrow for particles, from now on: packing and steps take it for water. Lumps near each other in the list are
+  /// The water in gaps too narrow for particles, from now on: packing and steps take it for water (not those of numerics/gradients mls and
+  /// mls_corrected). Lumps near each other in the list are
   /// best near each other in the tank.
   virtual void set_film(const std::vector<FilmLump>& lumps) = 0;
   /// The next steps are no longer than this, s, whatever the fluid allows.

@@ -114,7 +114,7 @@ void Runs::run(const compute::Device& device, const Case& checked, WallMover* mo
   std::vector<Vector3d> centres(1, Vector3d::Zero());
   centres.resize(1 + scene.bodies.size(), box_centre);
   const auto solver = make_solver(device, scene, layout, discretise(scene, layout), centres);
-  solver->set_film({{Vector3d(0.2, 0.1, 0.02), 1e-4, 1000.0}, {Vector3d(0.14, 0.1, 0.02), 1e-4, 1000.0}});
+  solver->set_film({{Vector3d(0.2, 0.1, 0.02), 1e-4, 1000.0, 1e-4}, {Vector3d(0.14, 0.1, 0.02), 1e-4, 1000.0, 1e-4}});
   solver->pack(2, {});
   solver->start();
   bool valid = true;

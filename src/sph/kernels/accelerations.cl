@@ -51,7 +51,7 @@ INLINE void accelerate_tile(__constant const parameters_t* p, int first, int cou
     LOOK_THROUGH(*walls, a.near, k);
     sweep_walls(&b, p, walls, images, b.x, b.y, b.z);
 #if BOTH_RATES
-    b.divergence = divergence_in_film(p, walls, film, images, state[FIELD_COMPRESSION * stride + i], b.x, b.y, b.z, b.divergence);
+    b.divergence = divergence_in_film(p, walls, film, images, state[FIELD_COMPRESSION * stride + i], b.shepard, b.x, b.y, b.z, b.divergence);
 #endif
 #endif
     const real shepard = bounded_shepard(b.shepard);

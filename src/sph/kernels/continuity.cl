@@ -93,7 +93,7 @@ __kernel void continuity(__constant const parameters_t* p, int count, __global c
     stand_at(&walls, state, stride, i);
     LOOK_THROUGH(walls, a.near, k);
     sweep_walls(&b, p, &walls, images, a.near.places.x[k], a.near.places.y[k], a.near.places.z[k]);
-    b.divergence = divergence_in_film(p, &walls, film, images, state[FIELD_COMPRESSION * stride + i], a.near.places.x[k], a.near.places.y[k],
+    b.divergence = divergence_in_film(p, &walls, film, images, state[FIELD_COMPRESSION * stride + i], b.shepard, a.near.places.x[k], a.near.places.y[k],
                                       a.near.places.z[k], b.divergence);
 #endif
     write_continuity(p, state, stride, i, &sums, k, b.divergence, b.shepard, rates);

@@ -18,6 +18,7 @@
 // gap are counted, and from the second on it is filled as any water.
 #define FULL_GAP R(0.85)
 #define MOUTH_GAP R(0.65)
+#define ROWS_GAP R(1.5)
 #define NARROW_GAP R(2.0)
 #define WIDE_GAP R(2.5)
 
@@ -150,7 +151,8 @@ __kernel void facing_walls(__constant const parameters_t* p, int count, __global
   const real room = fmax(R(1.0) - b.own - behind, R(0.05));
   const real closed = fmin(fmax((FILM_OPEN - gap) / (FILM_OPEN - FILM_CLOSED), R(0.0)), R(1.0));
   const real narrow = fmin(fmax((WIDE_GAP - gap) / (WIDE_GAP - NARROW_GAP), R(0.0)), R(1.0));
-  const real film = fmax(closed, narrow * fmin(fmax((FULL_GAP - fit.weight / room) / (FULL_GAP - MOUTH_GAP), R(0.0)), R(1.0)));
+  const real at_mouth = MOUTH_GAP * fmin(fmax((ROWS_GAP - gap) / (ROWS_GAP - R(1.0)), R(0.0)), R(1.0));
+  const real film = fmax(closed, narrow * fmin(fmax((FULL_GAP - fit.weight / room) / (FULL_GAP - at_mouth), R(0.0)), R(1.0)));
   const real crowded = narrow * fmax(fit.weight - room, R(0.0));
   const real open = (R(1.0) - film) * (behind > crowded ? R(1.0) - crowded / behind : R(0.0));
   places[s] = x;
