@@ -20,7 +20,7 @@ constexpr double full = 0.85, mouth = 0.65, gap_of_rows = 1.5;
 constexpr double rim_pressing_2d = 1.35, rim_pressing_3d = 1.05, less_rim_pressing = 0.6;
 
 // Wider gaps have a film as far as particles have not come into them, up to the first of these; at the second they are open water.
-// facing_walls.cl has the same four.
+// facing_walls.cl and walls.cl have the same, and those above but for the rim's.
 constexpr double narrow_gap = 2.0, wide_gap = 2.5;
 
 // The pressure is read this far off the surface, in the gap's water if it has any: on the surface itself, where two walls touch, γ has no
@@ -292,6 +292,7 @@ void WaterFilm::add(const Film& film, const std::optional<FrameMotion>& frame, S
     };
     add(body, force);
     add(other, -force);
+    if (gap < thinnest_lump && film.fluid[e].filling <= 0) continue;                      // nothing to feel, and nobody caught
     const double opening = (velocity(body, place) - velocity(other, place)).dot(normal);  // m/s
     const bool held = !world_.is_free(body) && (other == 0 || !world_.is_free(other));    // in the tank, which its own axes go with
     const double scale = std::max(fast * std::sqrt(gravity.norm() * spacing_), least_fast * sound_speed_);

@@ -283,39 +283,36 @@ std::pair<double, double> sizes_facing(const Layout& layout, int owner, const Ve
   return sizes;
 }
 
+/// Two boxes over a floor, so many spacings from it and from each other, 0.4 m long (3-D: and 0.2 m wide).
+Case stacked_boxes(int dimensions, double spacing, double gap) {
+  const double across = dimensions == 3 ? 0.4 : 0.0, inset = dimensions == 3 ? 0.1 : 0.0, low = gap * spacing;
+  Case checked = box_case(Vector3d(0.8, across, 0.4), 0.3, spacing);
+  checked.bodies = {box_body("lower", Vector3d(0.2, inset, low), Vector3d(0.6, across - inset, low + 0.08)),
+                    box_body("upper", Vector3d(0.2, inset, 2 * low + 0.08), Vector3d(0.6, across - inset, 2 * low + 0.16))};
+  return checked;
+}
+
+void expect_whole_faces(const Layout& layout, int dimensions) {
+  const double face = dimensions == 3 ? 0.4 * 0.2 : 0.4, floor = dimensions == 3 ? 0.8 * 0.4 : 0.8;
+  for (const auto& [owner, upward, size] :
+       {std::tuple(0, -1, floor), std::tuple(1, 1, face), std::tuple(1, -1, face), std::tuple(2, 1, face), std::tuple(2, -1, face)}) {
+    const auto [of_facets, of_elements] = sizes_facing(layout, owner, upward * Vector3d::UnitZ(), dimensions);
+    EXPECT_NEAR(of_facets, size, 1e-6 * size) << "owner " << owner << ", way " << upward << ", " << dimensions << "-D";
+    EXPECT_NEAR(of_elements, size, 1e-6 * size) << "owner " << owner << ", way " << upward << ", " << dimensions << "-D";
+  }
+}
+
 /// From the middle of a face that a gap covers no open space was in sight: a whole floor was lost to a box a fifth of a spacing over it.
 TEST_F(LayoutWalls, FacesAreWholeHoweverNarrowTheGapBeforeThem) {
   for (const int dimensions : {2, 3})
     for (const double gap : {0.02, 0.1, 0.2, 0.29, 0.31, 0.7}) {
-      const double across = dimensions == 3 ? 0.4 : 0.0, inset = dimensions == 3 ? 0.1 : 0.0;
-      Case checked = box_case(Vector3d(0.8, across, 0.4), 0.3, 0.02);
-      const double low = 0.02 * gap;
-      checked.bodies = {box_body("lower", Vector3d(0.2, inset, low), Vector3d(0.6, across - inset, low + 0.08)),
-                        box_body("upper", Vector3d(0.2, inset, 2 * low + 0.08), Vector3d(0.6, across - inset, 2 * low + 0.16))};
-      const Layout layout = lay_out(checked);
-      const double face = dimensions == 3 ? 0.4 * 0.2 : 0.4, floor = dimensions == 3 ? 0.8 * 0.4 : 0.8;
-      for (const auto& [owner, way, size] :
-           {std::tuple(0, -1, floor), std::tuple(1, 1, face), std::tuple(1, -1, face), std::tuple(2, 1, face), std::tuple(2, -1, face)}) {
-        // of a body the normals point into it
-        const double sign = owner == 0 ? way : -way;
-        const auto [of_facets, of_elements] = sizes_facing(layout, owner, sign * Vector3d::UnitZ(), dimensions);
-        EXPECT_NEAR(of_facets, size, 1e-6 * size) << "owner " << owner << ", way " << way << ", gap " << gap << ", " << dimensions << "-D";
-        EXPECT_NEAR(of_elements, size, 1e-6 * size)
-            << "owner " << owner << ", way " << way << ", gap " << gap << ", " << dimensions << "-D";
-      }
+      SCOPED_TRACE(gap);
+      expect_whole_faces(lay_out(stacked_boxes(dimensions, 0.02, gap)), dimensions);
     }
 }
 
 /// In a tank of so many cells that the flood goes by whole spacings.
-TEST_F(LayoutWalls, FacesAreWholeAlsoWhereTheFloodIsCoarse) {
-  Case checked = box_case(Vector3d(0.8, 0, 0.4), 0.3, 0.001);
-  checked.bodies = {box_body("lower", Vector3d(0.2, 0, 0.0008), Vector3d(0.6, 0, 0.0808)),
-                    box_body("upper", Vector3d(0.2, 0, 0.0816), Vector3d(0.6, 0, 0.16))};
-  const Layout layout = lay_out(checked);
-  EXPECT_NEAR(sizes_facing(layout, 0, -Vector3d::UnitZ(), 2).first, 0.8, 1e-6);
-  for (const int owner : {1, 2})
-    for (const double way : {1.0, -1.0}) EXPECT_NEAR(sizes_facing(layout, owner, way * Vector3d::UnitZ(), 2).second, 0.4, 1e-6);
-}
+TEST_F(LayoutWalls, FacesAreWholeAlsoWhereTheFloodIsCoarse) { expect_whole_faces(lay_out(stacked_boxes(2, 0.001, 0.8)), 2); }
 
 /// Likewise in one mesh, as far as its facets go: a slab a fifth of a spacing over the floor's middle.
 TEST_F(LayoutWalls, AFloorUnderASlabOfItsOwnMeshIsWhole) {
@@ -329,10 +326,7 @@ TEST_F(LayoutWalls, AFloorUnderASlabOfItsOwnMeshIsWhole) {
 
 /// But where bodies lie on each other no water is: those faces are no walls.
 TEST_F(LayoutWalls, FacesOfBodiesThatTouchAreNone) {
-  Case checked = box_case(Vector3d(0.8, 0.4, 0.4), 0.3, 0.02);
-  checked.bodies = {box_body("lower", Vector3d(0.2, 0.1, 0), Vector3d(0.6, 0.3, 0.08)),
-                    box_body("upper", Vector3d(0.2, 0.1, 0.08), Vector3d(0.6, 0.3, 0.16))};
-  const Layout layout = lay_out(checked);
+  const Layout layout = lay_out(stacked_boxes(3, 0.02, 0));
   EXPECT_NEAR(sizes_facing(layout, 1, -Vector3d::UnitZ(), 3).first, 0, 1e-9);
   EXPECT_NEAR(sizes_facing(layout, 0, -Vector3d::UnitZ(), 3).second, 0.8 * 0.4 - 0.4 * 0.2, 1e-6);
 }

@@ -238,9 +238,8 @@ class Solver {
 
   /// Places, velocities and accelerations of the walls, from the next step on.
   virtual void set_wall_motions(const WallMotions& motions) = 0;
-  /// The water in gaps too narrow for particles, from now on: packing and steps take it for water (not those of numerics/gradients mls and
-  /// mls_corrected). Lumps near each other in the list are
-  /// best near each other in the tank.
+  /// The water in gaps too narrow for particles, from now on: packing and steps take it for water; the steps of least squares
+  /// (numerics/gradients) do not. Lumps near each other in the list are best near each other in the tank.
   virtual void set_film(const std::vector<FilmLump>& lumps) = 0;
   /// The next steps are no longer than this, s, whatever the fluid allows.
   virtual void limit_time_step(double limit) = 0;

@@ -57,7 +57,8 @@ INLINE void add_wall(wall_sweep_t* a, __constant const parameters_t* p, int s, r
 #include "sweep.cl"
 
 __kernel void continuity(__constant const parameters_t* p, int count, __global const int* slot_start, __global const real* state, long stride,
-                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* film, __global const real* gradient, __global const int* blocks, __global real* rates) {
+                         real reach, WALL_ARGUMENTS, __global const real* images, __global const real* film, __global const real* gradient,
+                         __global const int* blocks, __global real* rates) {
   TAKE_TILE(first, count)
   walls_t walls = WALLS_OF_ARGUMENTS;
   sweep_t a = {0};

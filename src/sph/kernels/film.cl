@@ -11,8 +11,8 @@
 #define FILM_CLOSED_VOLUME 5
 
 typedef struct {
-  vector_t push;  // Σ (own + share p_f) F V (x_f − x)
-  vector_t side;  // Σ F V_c (x_f − x), V_c what is of closed gaps
+  vector_t push;          // Σ (own + share p_f) F V (x_f − x)
+  vector_t side;          // Σ F V_c (x_f − x), V_c what is of closed gaps
   real closed, pressure;  // Σ W V_c, Σ p_f W V_c
 } film_sums_t;
 
