@@ -296,17 +296,17 @@ class Bodies(unittest.TestCase):
             self.assertGreater(forwards - rest, 0.5, frame)
             self.assertLess(backwards - rest, -0.5, frame)
         self.push.publish(wrench(PUSH))
-        pushed = self.acceleration(0.04)  # the water that was pushed to and fro pushes the box as much for as long as its sound takes through it
+        pushed = self.acceleration(0.02)
         for _ in range(20):
             self.push.publish(wrench(math.nan))
             self.push.publish(wrench(-math.inf))
             self.push.publish(wrench(1e308))  # finite, but beyond reason; so are those of 1e5 N on 12 kg
             self.push.publish(wrench(1e5))
             time.sleep(0.01)
-        self.assertGreater(self.acceleration(0.04), 0.3 * pushed, "the wrench before stays")
+        self.assertGreater(self.acceleration(0.02), 0.5 * pushed, "the wrench before stays")
         time.sleep(1.0)  # a topic is warned about once a second
         self.push.publish(wrench(-100.0 * PUSH, "map"))
-        self.assertGreater(self.acceleration(0.04), 0.3 * pushed, "the wrench before stays")
+        self.assertGreater(self.acceleration(0.02), 0.5 * pushed, "the wrench before stays")
         self.run_until(self.time() + WRENCH_TIMEOUT)
         self.assertLess(self.acceleration(0.02), 0.3 * pushed, "after the timeout")
 
