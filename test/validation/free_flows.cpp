@@ -3,13 +3,17 @@
 // FLOW is taylor_green (a periodic square of side L = 1 m with speeds up to U = 1 m/s) or square (a square patch that turns with ω = 1/s).
 // Words: n (particles along the side, 50), reynolds (0: inviscid), drift (of the whole flow along x, U, 0), end (t U/L or t ω, 0.4), rows
 // (10), alpha (artificial viscosity of delta_sph, 0.01), limiter (of Riemann schemes, 1), sound (c₀ over the greatest speed, 10),
-// precision, fields (a name: x, z and pressure of every particle are written to NAME_T.csv at every `field_rows`th row); and any of the
-// case's method words as KEY=WORD: scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator,
-// equation_of_state (cole), density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
+// precision, fields (a name: x, z and pressure of every particle are written to NAME_T.csv at every `field_rows`th row), keep (a file: a
+// run that was ended goes on from the last row, whose state is in it, and prints the rows before again); and any of the case's method words
+// as KEY=WORD: scheme, gradients, pressure (of numerics/mls), viscosity_model, shifting, tensile, integrator, equation_of_state (cole),
+// density_diffusion. c₀ and lengths make the rest: Δt = 0.75 h/c₀, times `step`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "../common/box_case.h"
@@ -115,6 +119,46 @@ void write_field(const std::string& name, double time, double origin, const Flui
   if (std::fclose(file) != 0) throw Error("cannot write " + std::string(path));
 }
 
+/// What a run has come to at a row of its table.
+struct Kept {
+  int step = 0, rows = 0;
+  double energy = 0, volume = 0, mass = 0;  // at the start
+  std::string table;                        // as it was printed
+  std::vector<char> state;
+};
+
+void write_kept(const std::string& path, const Kept& kept) {
+  {
+    std::ofstream out(path + ".part", std::ios::binary);
+    out << kept.step << ' ' << kept.rows << ' ' << std::hexfloat << kept.energy << ' ' << kept.volume << ' ' << kept.mass << ' ' << std::dec
+        << kept.table.size() << ' ' << kept.state.size() << '\n';
+    out << kept.table;
+    out.write(kept.state.data(), static_cast<std::streamsize>(kept.state.size()));
+    if (!out.flush()) throw Error("cannot write " + path + ".part");
+  }
+  std::filesystem::rename(path + ".part", path);
+}
+
+Kept read_kept(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line, energy, volume, mass;
+  std::getline(in, line);
+  std::istringstream words(line);
+  Kept kept;
+  std::size_t table = 0, state = 0;
+  words >> kept.step >> kept.rows >> energy >> volume >> mass >> table >> state;
+  if (!words) throw Error(path + " is no kept run");
+  kept.energy = std::stod(energy);
+  kept.volume = std::stod(volume);
+  kept.mass = std::stod(mass);
+  kept.table.resize(table);
+  kept.state.resize(state);
+  in.read(kept.table.data(), static_cast<std::streamsize>(table));
+  in.read(kept.state.data(), static_cast<std::streamsize>(state));
+  if (!in) throw Error(path + " ends before its state does");
+  return kept;
+}
+
 template <class Real>
 void run(const Flow& flow, const Words& words, Precision precision) {
   const double side = flow.domain(), sound_speed = number(words, "sound", 10) * flow.greatest_speed();
@@ -189,15 +233,35 @@ void run(const Flow& flow, const Words& words, Precision precision) {
       sum += 0.5 * fluid.mass[i] * (fluid.velocity[i] - Vector3d(flow.drift, 0, 0)).squaredNorm();
     return sum;
   };
-  double first = 0, start_volume = 0, start_mass = 0, shift = 0, shift_sum = 0;
-  int shift_count = 0, row = 0;
+  double shift = 0, shift_sum = 0;
+  int shift_count = 0;
   const std::string fields = words.count("fields") != 0 ? words.at("fields") : "";
   const int field_rows = static_cast<int>(number(words, "field_rows", 1));
-  std::printf("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
-              "dV/V", "dm/m", "V least", "V most", "close", "p centre", "p worst");
+  const std::string keep = words.count("keep") != 0 ? words.at("keep") : "";
+  Kept kept;
+  const auto print = [&](const char* format, auto... values) {
+    char line[512];
+    std::snprintf(line, sizeof line, format, values...);
+    std::fputs(line, stdout);
+    std::fflush(stdout);
+    kept.table += line;
+  };
+  const bool goes_on = !keep.empty() && std::filesystem::exists(keep);
+  if (goes_on) {
+    kept = read_kept(keep);
+    solver->restore(kept.state);
+    solver->limit_time_step(step);
+    solver->shorten_step(step);
+    std::fputs(kept.table.c_str(), stdout);
+    std::fflush(stdout);
+  } else {
+    print("%8s %8s %9s %9s %9s %9s %9s %10s %10s %9s %9s %6s %9s %9s\n", "t", "E/E0", "max|u|", "du now", "du mean", "p rms", "p error",
+          "dV/V", "dm/m", "V least", "V most", "close", "p centre", "p worst");
+  }
   const auto centre = solver->make_points({Vector3d(0.5 * side, 0, 0.5 * side)});
-  for (int k = 0; k <= steps; ++k) {
-    if (k % std::max(1, steps / rows) == 0 || k == steps) {
+  for (int k = kept.step; k <= steps; ++k) {
+    const bool is_printed = goes_on && k == kept.step;
+    if (!is_printed && (k % std::max(1, steps / rows) == 0 || k == steps)) {
       const FluidState fluid = solver->download();
       const double energy = kinetic(fluid);
       double volume = 0, mass = 0, least = 1e9, most = 0, square = 0, error = 0, worst = 0, speed = 0;
@@ -216,18 +280,22 @@ void run(const Flow& flow, const Words& words, Precision precision) {
         speed = std::max(speed, (fluid.velocity[i] - Vector3d(flow.drift, 0, 0)).norm());
       }
       if (k == 0) {
-        first = energy;
-        start_volume = volume;
-        start_mass = mass;
+        kept.energy = energy;
+        kept.volume = volume;
+        kept.mass = mass;
       }
       const double count = static_cast<double>(fluid.id.size());
-      std::printf("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d %9.5f %9.4f\n", k * step, energy / first, speed,
-                  shift, shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count),
-                  volume / start_volume - 1, mass / start_mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
-                  solver->evaluate(*centre)[0].pressure / 1000, worst);
-      std::fflush(stdout);
-      if (!fields.empty() && row % field_rows == 0) write_field(fields, k * step, flow.origin(), fluid);
-      ++row;
+      print("%8.4f %8.5f %9.4f %9.4f %9.4f %9.4f %9.4f %10.2e %10.2e %9.3f %9.3f %6d %9.5f %9.4f\n", k * step, energy / kept.energy, speed,
+            shift, shift_count > 0 ? shift_sum / shift_count : 0.0, std::sqrt(square / count), std::sqrt(error / count),
+            volume / kept.volume - 1, mass / kept.mass - 1, least, most, close_pairs(fluid, flow.spacing, flow.is_periodic()),
+            solver->evaluate(*centre)[0].pressure / 1000, worst);
+      if (!fields.empty() && kept.rows % field_rows == 0) write_field(fields, k * step, flow.origin(), fluid);
+      ++kept.rows;
+      if (!keep.empty()) {
+        kept.step = k;
+        kept.state = solver->save();
+        write_kept(keep, kept);
+      }
       shift_sum = 0;
       shift_count = 0;
     }

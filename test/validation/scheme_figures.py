@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the free flows of the particle shifting paper (free_flows) and makes their plots and tables: figures 1 to 18.
 
-scheme_figures.py PROGRAM FOLDER taylor_green|shifting_laws|rotating_square [N]... keeps each run's table in FOLDER; what is there already is not run again.
+scheme_figures.py PROGRAM FOLDER taylor_green|shifting_laws|rotating_square [N]... keeps each run's table in FOLDER; what is there already is not run again, and a run that was ended goes on from its last row.
 """
 import glob
 import math
@@ -36,9 +36,11 @@ class Runs:
             if fields:
                 os.makedirs(os.path.join(self.folder, "fields"), exist_ok=True)
                 command += ["fields=" + os.path.join(self.folder, "fields", fields), "field_rows=%d" % field_rows]
+            kept = path + ".state"
             with open(path + ".part", "w", encoding="utf-8") as out:
-                subprocess.run(command, stdout=out, check=True)
+                subprocess.run(command + ["keep=" + kept], stdout=out, check=True)
             os.rename(path + ".part", path)
+            os.remove(kept)
         with open(path, encoding="utf-8") as file:
             lines = file.read().splitlines()[1:]
         return [dict(zip(COLUMNS, map(float, line.split()))) for line in lines]
