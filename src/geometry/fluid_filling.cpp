@@ -302,16 +302,19 @@ FilledRegion fill_flood(const Basin& basin, const FloodFill& given, double spaci
 
 void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region) {
   const double too_near = 0.05 * spacing, room = 0.25 * spacing;
+  region.taken.assign(region.filled.size(), 0);
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
     if (!region.filled[c]) continue;
     const auto wall = basin.grid->nearest(region.position[c], too_near);
     if (!wall) continue;
     region.filled[c] = 0;
+    region.taken[c] = 1;
     if (wall->distance < 0.2 * too_near) continue;  // on the wall: there is no saying on which side
     const Vector3d away = wall->point + room / wall->distance * (region.position[c] - wall->point);
     if (basin.grid->crosses(region.position[c], away) || basin.grid->nearest(away, too_near)) continue;
     region.position[c] = away;
     region.filled[c] = 1;
+    region.taken[c] = 0;
   }
 }
 

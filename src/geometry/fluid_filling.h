@@ -49,11 +49,11 @@ struct FilledRegion {
   Vector3i count;
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
-  std::vector<char> taken;         ///< cells without a particle of their own because one beside them has all of a narrow gap's room
-  std::vector<float> share;        ///< of each cell's volume, what its particle has: more in a gap whose rows do not fill it
-  FreeSurface surface;             ///< that it was filled up to
-  double volume = 0;               ///< of a cell, m³ (2-D: m²)
-  CurvedSurface curved;            ///< empty where it is level
+  std::vector<char> taken;   ///< cells without a particle of their own whose room particles beside them have: on a wall, or in a narrow gap
+  std::vector<float> share;  ///< of each cell's volume, what its particle has: more in a gap whose rows do not fill it
+  FreeSurface surface;       ///< that it was filled up to
+  double volume = 0;         ///< of a cell, m³ (2-D: m²)
+  CurvedSurface curved;      ///< empty where it is level
 
   std::size_t column(int i, int j) const { return static_cast<std::size_t>(j) * count[0] + i; }
   std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * count[1] + j) * count[0] + i; }
@@ -81,6 +81,14 @@ void raise_surface(const Basin& basin, const InitialState& initial, FilledRegion
 /// Particles nearer to a wall than 0.05 of the spacing are pushed off to a quarter of it, or left out if they are on it or there is no
 /// room.
 void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
+
+/// Whether a place is in a gap between walls that no particle fits into.
+bool is_too_narrow_for_particles(const Basin& basin, const FilledRegion& region, const Vector3d& place);
+
+/// Where walls cut cells, gives each particle the volume of the water that is nearer to it than to any other: so that the particles
+/// together have the volume of the region's water, wherever its walls are between the lattice's planes; without gaps too narrow for
+/// particles.
+void share_cells(const Basin& basin, FilledRegion& region);
 
 /// In gaps between walls that face each other, empties cells whose particle would not fit: all of a gap narrower than a cell, and so many
 /// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.

@@ -170,6 +170,7 @@ std::vector<FilledRegion> fill(const Case& checked, const Basin& basin, double s
     }
     if (initial.has_elevation()) raise_surface(basin, initial, regions.back());
     keep_off_walls(basin, spacing, regions.back());
+    share_cells(basin, regions.back());
     keep_out_of_gaps(basin, regions.back());
   }
   return regions;

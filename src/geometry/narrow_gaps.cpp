@@ -104,7 +104,6 @@ bool has_water(const FilledRegion& region, const Vector3d& place) {
 
 /// The particles of a gap have its volume among them, also where a row more or less would fill it.
 void share_gaps(const Basin& basin, FilledRegion& region) {
-  region.share.assign(region.filled.size(), 1.0f);
   Crowd crowd(region, shared);
   std::vector<std::pair<std::size_t, Gap>> gaps;
   for (std::size_t c = 0; c < region.filled.size(); ++c) {
@@ -137,6 +136,11 @@ bool is_even(const FilledRegion& region, std::size_t cell) {
 
 }  // namespace
 
+bool is_too_narrow_for_particles(const Basin& basin, const FilledRegion& region, const Vector3d& place) {
+  const std::optional<Gap> gap = gap_about(*basin.grid, place, region.step, 1.0);
+  return gap && !gap->holds_particles();
+}
+
 bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vector3d& place) {
   const std::optional<Gap> gap = gap_about(*basin.grid, place, region.step, 1.0);
   if (!gap || gap->holds_particles() || gap->owners[0] == gap->owners[1]) return false;
@@ -145,7 +149,6 @@ bool is_filled_by_film(const Basin& basin, const FilledRegion& region, const Vec
 }
 
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region) {
-  region.taken.assign(region.filled.size(), 0);
   Crowd crowd(region, 1.0);
   const double shortest = basin.dimensions == 2 ? std::min(region.step.x(), region.step.z()) : region.step.minCoeff();
   for (std::size_t c = 0; c < region.filled.size(); ++c) {

@@ -36,14 +36,13 @@ struct Variant {
   ShepardFactor shepard;
 };
 
-/// A fixed box `gap` spacings over the floor, in still water. Where particles do not fit under it its top is one of the lattice's planes:
-/// half a row more or less over it is another 5 %.
+/// A fixed box six spacings high, `gap` spacings over the floor, in still water.
 Case box_over_floor(const Variant& variant, double gap) {
   const bool flat = variant.dimensions == 2;
   const double spacing = 0.02, width = flat ? 0.0 : 0.4;
   Case scene = box_case(Vector3d(flat ? 0.8 : 0.4, width, 0.5), 0.3, spacing);
   scene.fluid.density = density;
-  const double half = flat ? 0.2 : 0.1, low = gap * spacing, high = std::max(low, spacing) + 0.12;
+  const double half = flat ? 0.2 : 0.1, low = gap * spacing, high = low + 0.12;
   const Vector3d middle(flat ? 0.4 : 0.2, 0.5 * width, 0);
   scene.bodies.push_back({"box", Box{middle + Vector3d(-half, flat ? 0 : -half, low), middle + Vector3d(half, flat ? 0 : half, high)}});
   scene.numerics.walls.elements = variant.elements;
@@ -62,7 +61,8 @@ void feels_archimedes_over_the_floor(const Variant& variant, double gap) {
   std::printf("%s, %g spacings over the floor: %+.1f %% of Archimedes' %.1f N (%+.1f to %+.1f %%), sideways %.2f %%\n", variant.name, gap,
               100 * (force.mean.z() / archimedes - 1), archimedes, 100 * (force.least.z() / archimedes - 1),
               100 * (force.greatest.z() / archimedes - 1), 100 * std::hypot(force.mean.x(), force.mean.y()) / archimedes);
-  EXPECT_NEAR(force.mean.z(), archimedes, 0.05 * archimedes);
+  // 2.5 % was measured; in a gap just wide enough for a row of particles, which is half film, 4.2 %
+  EXPECT_NEAR(force.mean.z(), archimedes, (gap > 0.9 && gap < 1.1 ? 0.05 : 0.03) * archimedes);
   EXPECT_LT(std::hypot(force.mean.x(), force.mean.y()), 0.02 * archimedes);
 }
 

@@ -1,0 +1,104 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_filling.h"
+
+namespace wavetank {
+namespace {
+
+constexpr float least_share = 0.4f, most_share = 2.0f;  // as in narrow gaps: beyond these the sums over particles of two sizes suffer
+
+/// Places all over a cell, each for as much of it, as offsets from its centre: a lattice of rank 1 in one corner of the cell and its images
+/// in the others. Along each axis they are at 32 (3-D: 16) even distances, so that a plane wall's cut is found to a half of that, and they
+/// are the same from either side, so that nothing symmetric loses its symmetry.
+std::vector<Vector3d> places_in_cell(const Vector3d& step) {
+  const bool flat = step.y() == 0;
+  const int count = flat ? 16 : 8, stride[3] = {1, 5, flat ? 7 : 3};
+  std::vector<Vector3d> places;
+  for (int m = 0; m < count; ++m)
+    for (int corner = 0; corner < 8; ++corner) {
+      if (flat && (corner & 2) != 0) continue;
+      Vector3d place;
+      for (int axis = 0; axis < 3; ++axis)
+        place[axis] = ((corner >> axis & 1) != 0 ? 0.5 : -0.5) * step[axis] * (m * stride[axis] % count + 0.5) / count;
+      places.push_back(place);
+    }
+  return places;
+}
+
+/// Gives the wet part of one cell to particles: its own where it sees that part, else the nearest that does in a cell beside it.
+class CellSharing {
+ public:
+  CellSharing(const Basin& basin, FilledRegion& region) : basin_(basin), region_(region), places_(places_in_cell(region.step)) {}
+
+  void share(int i, int j, int k) {
+    const std::size_t cell = region_.index(i, j, k);
+    const Vector3d centre = region_.centre(i, j, k);
+    const auto wall = basin_.grid->nearest(centre, 0.5 * region_.step.norm() * (1 + 1e-6));
+    if (!wall || is_a_side(centre, wall->point, wall->distance)) return;
+    find_neighbours(i, j, k);
+    if (!region_.filled[cell] && neighbours_.empty()) return;
+    const float part = 1.0f / static_cast<float>(places_.size());
+    if (region_.filled[cell]) region_.share[cell] -= 1;
+    for (const Vector3d& offset : places_) {
+      const Vector3d place = centre + offset;
+      const bool before_wall = offset.norm() < wall->distance && region_.position[cell] == centre;  // no need to look
+      if (region_.filled[cell] && (before_wall || sees(cell, place))) {
+        region_.share[cell] += part;
+      } else if (const auto other = nearest_that_sees(place)) {
+        region_.share[*other] += part;
+      }
+    }
+  }
+
+ private:
+  /// Whether a wall at that point does no more than to bound the cell.
+  bool is_a_side(const Vector3d& centre, const Vector3d& point, double distance) const {
+    int axis = 0;
+    const Vector3d way = point - centre;
+    way.cwiseAbs().maxCoeff(&axis);
+    return std::abs(way[axis]) > 0.999 * distance && distance > 0.499 * region_.step[axis];
+  }
+
+  bool sees(std::size_t cell, const Vector3d& place) const { return !basin_.grid->crosses(region_.position[cell], place); }
+
+  void find_neighbours(int i, int j, int k) {
+    neighbours_.clear();
+    for (int n = 0; n < 27; ++n) {
+      const int a = i + n % 3 - 1, b = j + n / 3 % 3 - 1, c = k + n / 9 - 1;
+      if (n == 13 || a < 0 || b < 0 || c < 0 || a >= region_.count[0] || b >= region_.count[1] || c >= region_.count[2]) continue;
+      if (region_.filled[region_.index(a, b, c)]) neighbours_.push_back(region_.index(a, b, c));
+    }
+  }
+
+  /// Of the three nearest: what these do not see is behind the wall.
+  std::optional<std::size_t> nearest_that_sees(const Vector3d& place) {
+    if (!region_.surface.wets(place)) return std::nullopt;
+    const auto few = neighbours_.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(neighbours_.size()));
+    std::partial_sort(neighbours_.begin(), few, neighbours_.end(), [&](std::size_t a, std::size_t b) {
+      const double to_a = (region_.position[a] - place).squaredNorm(), to_b = (region_.position[b] - place).squaredNorm();
+      return to_a < to_b || (to_a == to_b && a < b);
+    });
+    const auto found = std::find_if(neighbours_.begin(), few, [&](std::size_t other) { return sees(other, place); });
+    return found == few || is_too_narrow_for_particles(basin_, region_, place) ? std::nullopt : std::optional(*found);
+  }
+
+  const Basin& basin_;
+  FilledRegion& region_;
+  std::vector<Vector3d> places_;
+  std::vector<std::size_t> neighbours_;  ///< of the cell in hand, that have particles
+};
+
+}  // namespace
+
+void share_cells(const Basin& basin, FilledRegion& region) {
+  region.share.assign(region.filled.size(), 1.0f);
+  CellSharing sharing(basin, region);
+  for (int k = 0; k < region.count[2]; ++k)
+    for (int j = 0; j < region.count[1]; ++j)
+      for (int i = 0; i < region.count[0]; ++i) sharing.share(i, j, k);
+  for (float& share : region.share) share = std::clamp(share, least_share, most_share);
+}
+
+}  // namespace wavetank
