@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "fluid_filling.h"
 
@@ -9,11 +11,10 @@ namespace {
 
 constexpr float least_share = 0.4f, most_share = 2.0f;  // as in narrow gaps: beyond these the sums over particles of two sizes suffer
 
-/// Places all over a cell, each for as much of it, as offsets from its centre: a lattice of rank 1 in one corner of the cell and its images
-/// in the others. Along each axis they are at 32 (3-D: 16) even distances, so that a plane wall's cut is found to a half of that, and they
-/// are the same from either side, so that nothing symmetric loses its symmetry.
-std::vector<Vector3d> places_in_cell(const Vector3d& step) {
-  const bool flat = step.y() == 0;
+/// Places all over a cell, each for as much of it, as offsets from its middle over its sides: a lattice of rank 1 in one corner of the cell
+/// and its images in the others. Along each axis they are at 32 (3-D: 16) even distances, so that a plane wall's cut is found to a half of
+/// that, and they are the same from either side, so that nothing symmetric loses its symmetry.
+std::vector<Vector3d> places_in_cell(bool flat) {
   const int count = flat ? 16 : 8, stride[3] = {1, 5, flat ? 7 : 3};
   std::vector<Vector3d> places;
   for (int m = 0; m < count; ++m)
@@ -21,7 +22,7 @@ std::vector<Vector3d> places_in_cell(const Vector3d& step) {
       if (flat && (corner & 2) != 0) continue;
       Vector3d place;
       for (int axis = 0; axis < 3; ++axis)
-        place[axis] = ((corner >> axis & 1) != 0 ? 0.5 : -0.5) * step[axis] * (m * stride[axis] % count + 0.5) / count;
+        place[axis] = ((corner >> axis & 1) != 0 ? 0.5 : -0.5) * (m * stride[axis] % count + 0.5) / count;
       places.push_back(place);
     }
   return places;
@@ -30,35 +31,60 @@ std::vector<Vector3d> places_in_cell(const Vector3d& step) {
 /// Gives the wet part of one cell to particles: its own where it sees that part, else the nearest that does in a cell beside it.
 class CellSharing {
  public:
-  CellSharing(const Basin& basin, FilledRegion& region) : basin_(basin), region_(region), places_(places_in_cell(region.step)) {}
+  CellSharing(const Basin& basin, FilledRegion& region) : basin_(basin), region_(region), places_(places_in_cell(region.step.y() == 0)) {}
 
   void share(int i, int j, int k) {
     const std::size_t cell = region_.index(i, j, k);
-    const Vector3d centre = region_.centre(i, j, k);
-    const auto wall = basin_.grid->nearest(centre, 0.5 * region_.step.norm() * (1 + 1e-6));
-    if (!wall || is_a_side(centre, wall->point, wall->distance)) return;
+    if (!region_.filled[cell] && is_over_surface(i, j, k)) return;
+    const Vector3d middle = middle_of(i, j, k), sides = sides_of(cell);
+    const auto wall = basin_.grid->nearest(middle, 0.5 * sides.norm() * (1 + 1e-6));
+    if (!wall || is_a_side(wall->point - middle, wall->distance, sides)) return;
     find_neighbours(i, j, k);
     if (!region_.filled[cell] && neighbours_.empty()) return;
-    const float part = 1.0f / static_cast<float>(places_.size());
+    const double part = 1.0 / static_cast<double>(places_.size());
     if (region_.filled[cell]) region_.share[cell] -= 1;
-    for (const Vector3d& offset : places_) {
-      const Vector3d place = centre + offset;
-      const bool before_wall = offset.norm() < wall->distance && region_.position[cell] == centre;  // no need to look
+    for (const Vector3d& place_in_cell : places_) {
+      const Vector3d offset = place_in_cell.cwiseProduct(sides), place = middle + offset;
+      const bool before_wall = offset.norm() < wall->distance && region_.position[cell] == middle;  // no need to look
       if (region_.filled[cell] && (before_wall || sees(cell, place))) {
-        region_.share[cell] += part;
+        region_.share[cell] += static_cast<float>(part);
       } else if (const auto other = nearest_that_sees(place)) {
-        region_.share[*other] += part;
+        region_.share[*other] += static_cast<float>(part * sides.z() / sides_of(*other).z());
       }
     }
   }
 
  private:
-  /// Whether a wall at that point does no more than to bound the cell.
-  bool is_a_side(const Vector3d& centre, const Vector3d& point, double distance) const {
+  bool is_curved() const { return !region_.curved.height.empty(); }
+
+  Vector3d middle_of(int i, int j, int k) const {
+    Vector3d middle = region_.centre(i, j, k);
+    if (is_curved()) middle.z() = region_.curved.middle[region_.index(i, j, k)];
+    return middle;
+  }
+
+  Vector3d sides_of(std::size_t cell) const {
+    Vector3d sides = region_.step;
+    if (is_curved()) sides.z() *= region_.curved.stretch[cell];
+    return sides;
+  }
+
+  bool is_over_surface(int i, int j, int k) const {
+    if (!is_curved()) return !region_.surface.wets(region_.centre(i, j, k));
+    const int top = region_.curved.top[region_.column(i, j)];
+    return top >= 0 && k > top;
+  }
+
+  /// Below the surface over the particle of a cell.
+  bool wets(std::size_t cell, const Vector3d& place) const {
+    return is_curved() ? place.z() < region_.curved.height[cell % region_.curved.height.size()] : region_.surface.wets(place);
+  }
+
+  /// Whether a wall in that way does no more than to bound the cell.
+  static bool is_a_side(const Vector3d& way, double distance, const Vector3d& sides) {
     int axis = 0;
-    const Vector3d way = point - centre;
     way.cwiseAbs().maxCoeff(&axis);
-    return std::abs(way[axis]) > 0.999 * distance && distance > 0.499 * region_.step[axis];
+    return std::abs(way[axis]) > 0.999 * distance && distance > 0.499 * sides[axis];
   }
 
   bool sees(std::size_t cell, const Vector3d& place) const { return !basin_.grid->crosses(region_.position[cell], place); }
@@ -74,13 +100,12 @@ class CellSharing {
 
   /// Of the three nearest: what these do not see is behind the wall.
   std::optional<std::size_t> nearest_that_sees(const Vector3d& place) {
-    if (!region_.surface.wets(place)) return std::nullopt;
     const auto few = neighbours_.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(neighbours_.size()));
     std::partial_sort(neighbours_.begin(), few, neighbours_.end(), [&](std::size_t a, std::size_t b) {
       const double to_a = (region_.position[a] - place).squaredNorm(), to_b = (region_.position[b] - place).squaredNorm();
       return to_a < to_b || (to_a == to_b && a < b);
     });
-    const auto found = std::find_if(neighbours_.begin(), few, [&](std::size_t other) { return sees(other, place); });
+    const auto found = std::find_if(neighbours_.begin(), few, [&](std::size_t other) { return wets(other, place) && sees(other, place); });
     return found == few || is_too_narrow_for_particles(basin_, region_, place) ? std::nullopt : std::optional(*found);
   }
 

@@ -68,14 +68,17 @@ void fill_column(const Basin& basin, FilledRegion& region, int i, int j, const C
   int& top = region.curved.top[region.column(i, j)];
   for (int k = column.lowest; k < region.count[2]; ++k) {
     const std::size_t cell = region.index(i, j, k);
+    const bool is_raised = !region.filled[cell];
     region.filled[cell] = 0;
     if (k >= end) continue;
     region.position[cell].z() = column.bottom + (k - column.lowest + 0.5) * column.stretch * region.step.z();
     // what is raised stops at a wall above it
-    if (k > column.lowest && (top != k - 1 || basin.grid->crosses(region.position[region.index(i, j, k - 1)], region.position[cell])))
+    if (k > column.lowest &&
+        (top != k - 1 || (is_raised && basin.grid->crosses(region.position[region.index(i, j, k - 1)], region.position[cell]))))
       continue;
     region.filled[cell] = 1;
     region.curved.stretch[cell] = static_cast<float>(column.stretch);
+    region.curved.middle[cell] = region.position[cell].z();
     top = k;
   }
 }
@@ -129,6 +132,8 @@ void raise_surface(const Basin& basin, const InitialState& initial, FilledRegion
     }
   add_rows(region, highest - rows);
   curved.stretch.assign(region.filled.size(), 1.0f);
+  curved.middle.resize(region.filled.size());
+  for (std::size_t c = 0; c < region.filled.size(); ++c) curved.middle[c] = region.position[c].z();
   for (int j = 0; j < region.count[1]; ++j)
     for (int i = 0; i < region.count[0]; ++i)
       if (const auto& column = columns[region.column(i, j)]) fill_column(basin, region, i, j, *column);

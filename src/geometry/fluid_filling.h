@@ -40,6 +40,7 @@ struct CurvedSurface {
   std::vector<double> height;  ///< m, of the surface over each column
   std::vector<int> top;        ///< of each column, the uppermost cell below the surface; −1: there is no water at it
   std::vector<float> stretch;  ///< of each cell of the lattice, its height over that of a cell
+  std::vector<double> middle;  ///< m, of each cell, the height of its middle
 };
 
 /// One region of the case, filled: a regular lattice and which of its cells hold a particle.

@@ -63,6 +63,18 @@ TEST(CurvedSurface, RisesFromASeedAndInThreeDimensionsAlike) {
   for (const WallElement& element : flood.lid) EXPECT_NEAR((element.normal - outwards).norm(), 0, 1e-9);
 }
 
+TEST(CurvedSurface, HasItsVolumeOverAndBesideBodiesThatCutTheLattice) {
+  for (const double offset : {0.0, 0.25, 0.5, 0.8}) {
+    const double off = 0.02 * offset;
+    Case scene = wavy("0.05*cos(pi*x)");
+    scene.bodies = {box_body("sunk", Vector3d(0.3 + off, -0.1, 0.05 + off), Vector3d(0.7, 0.1, 0.16)),
+                    box_body("in the surface", Vector3d(1.2, -0.1, 0.2 + off), Vector3d(1.5 + off, 0.1, 0.5))};
+    const double under = 0.05 / M_PI * (std::sin(M_PI * (1.5 + off)) - std::sin(M_PI * 1.2));  // ∫ of the elevation over the second
+    const double wet = 0.6 - (0.4 - off) * (0.11 - off) - (0.3 + off) * (0.1 - off) - under;
+    EXPECT_NEAR(total(lay_out(scene).volumes), wet, 0.04 * 0.02 * 0.8) << "of the layers over and under them, " << offset;
+  }
+}
+
 // Water that ends in the tank: its side is as high as the water, though the cells there are not as high as a cell of the lattice.
 TEST(CurvedSurface, HasALidAsHighAsItsSide) {
   Case scene = wavy("0.05");
