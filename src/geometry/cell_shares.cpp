@@ -5,17 +5,23 @@
 #include <vector>
 
 #include "fluid_filling.h"
+#include "slow_work.h"
 
 namespace wavetank {
 namespace {
 
-constexpr float least_share = 0.4f, most_share = 2.0f;  // as in narrow gaps: beyond these the sums over particles of two sizes suffer
+constexpr float least_share = 0.4f, most_share = 2.0f;  // beyond these the sums over particles of two sizes suffer
+
+// So many particles beside a place are asked, the nearest first; what they do not see is behind the wall. Behind what a cell's own particle
+// does not see there is mostly nothing.
+constexpr int most_asked = 5, most_asked_behind = 2;
 
 /// Places all over a cell, each for as much of it, as offsets from its middle over its sides: a lattice of rank 1 in one corner of the cell
-/// and its images in the others. Along each axis they are at 32 (3-D: 16) even distances, so that a plane wall's cut is found to a half of
-/// that, and they are the same from either side, so that nothing symmetric loses its symmetry.
+/// and its images in the others, so that a cell and its mirror image are cut alike. Of a layer that a plane wall cuts the volume comes out
+/// to 0.016 of a spacing, if the wall stands along an axis, and to 0.053 at 45°, where all cells are cut alike (of strides tried, the
+/// best).
 std::vector<Vector3d> places_in_cell(bool flat) {
-  const int count = flat ? 16 : 8, stride[3] = {1, 5, flat ? 7 : 3};
+  const int count = 16, stride[3] = {1, 3, 5};
   std::vector<Vector3d> places;
   for (int m = 0; m < count; ++m)
     for (int corner = 0; corner < 8; ++corner) {
@@ -35,12 +41,15 @@ class CellSharing {
 
   void share(int i, int j, int k) {
     const std::size_t cell = region_.index(i, j, k);
-    if (!region_.filled[cell] && is_over_surface(i, j, k)) return;
+    if (!region_.filled[cell]) {
+      if (is_over_surface(i, j, k)) return;
+      find_neighbours(i, j, k);
+      if (neighbours_.empty()) return;
+    }
     const Vector3d middle = middle_of(i, j, k), sides = sides_of(cell);
     const auto wall = basin_.grid->nearest(middle, 0.5 * sides.norm() * (1 + 1e-6));
     if (!wall || is_a_side(wall->point - middle, wall->distance, sides)) return;
-    find_neighbours(i, j, k);
-    if (!region_.filled[cell] && neighbours_.empty()) return;
+    if (region_.filled[cell]) find_neighbours(i, j, k);
     const double part = 1.0 / static_cast<double>(places_.size());
     if (region_.filled[cell]) region_.share[cell] -= 1;
     for (const Vector3d& place_in_cell : places_) {
@@ -48,7 +57,7 @@ class CellSharing {
       const bool before_wall = offset.norm() < wall->distance && region_.position[cell] == middle;  // no need to look
       if (region_.filled[cell] && (before_wall || sees(cell, place))) {
         region_.share[cell] += static_cast<float>(part);
-      } else if (const auto other = nearest_that_sees(place)) {
+      } else if (const auto other = nearest_that_sees(place, region_.filled[cell] ? most_asked_behind : most_asked)) {
         region_.share[*other] += static_cast<float>(part * sides.z() / sides_of(*other).z());
       }
     }
@@ -98,9 +107,8 @@ class CellSharing {
     }
   }
 
-  /// Of the three nearest: what these do not see is behind the wall.
-  std::optional<std::size_t> nearest_that_sees(const Vector3d& place) {
-    const auto few = neighbours_.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(neighbours_.size()));
+  std::optional<std::size_t> nearest_that_sees(const Vector3d& place, int asked) {
+    const auto few = neighbours_.begin() + std::min<std::ptrdiff_t>(asked, static_cast<std::ptrdiff_t>(neighbours_.size()));
     std::partial_sort(neighbours_.begin(), few, neighbours_.end(), [&](std::size_t a, std::size_t b) {
       const double to_a = (region_.position[a] - place).squaredNorm(), to_b = (region_.position[b] - place).squaredNorm();
       return to_a < to_b || (to_a == to_b && a < b);
@@ -120,9 +128,13 @@ class CellSharing {
 void share_cells(const Basin& basin, FilledRegion& region) {
   region.share.assign(region.filled.size(), 1.0f);
   CellSharing sharing(basin, region);
+  SlowWork work("finding the water beside walls");
   for (int k = 0; k < region.count[2]; ++k)
     for (int j = 0; j < region.count[1]; ++j)
-      for (int i = 0; i < region.count[0]; ++i) sharing.share(i, j, k);
+      for (int i = 0; i < region.count[0]; ++i) {
+        work.tell(region.index(i, j, k), region.share.size());
+        sharing.share(i, j, k);
+      }
   for (float& share : region.share) share = std::clamp(share, least_share, most_share);
 }
 

@@ -51,7 +51,7 @@ struct FilledRegion {
   std::vector<char> filled;        ///< x fastest
   std::vector<Vector3d> position;  ///< of each cell's particle: its centre unless a wall was too near
   std::vector<char> taken;   ///< cells without a particle of their own whose room particles beside them have: on a wall, or in a narrow gap
-  std::vector<float> share;  ///< of each cell's volume, what its particle has: more in a gap whose rows do not fill it
+  std::vector<float> share;  ///< of each cell's volume, what its particle has, where walls cut cells and in narrow gaps
   FreeSurface surface;       ///< that it was filled up to
   double volume = 0;         ///< of a cell, m³ (2-D: m²)
   CurvedSurface curved;      ///< empty where it is level
@@ -86,13 +86,15 @@ void keep_off_walls(const Basin& basin, double spacing, FilledRegion& region);
 /// Whether a place is in a gap between walls that no particle fits into.
 bool is_too_narrow_for_particles(const Basin& basin, const FilledRegion& region, const Vector3d& place);
 
-/// Where walls cut cells, gives each particle the volume of the water that is nearer to it than to any other: so that the particles
-/// together have the volume of the region's water, wherever its walls are between the lattice's planes; without gaps too narrow for
-/// particles.
+/// Where walls cut cells, gives each particle the volume of its cell's water that it sees, and of the water beside it that no particle has
+/// for which it is the nearest that sees it: so that the particles together have the volume of the region's water, wherever its walls are
+/// between the lattice's planes. Not so in gaps too narrow for particles, for water farther off than a cell, and for corners that are left
+/// with less than the least share. After keep_off_walls.
 void share_cells(const Basin& basin, FilledRegion& region);
 
 /// In gaps between walls that face each other, empties cells whose particle would not fit: all of a gap narrower than a cell, and so many
-/// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle.
+/// of one narrower than two that those left stand apart. These are put at least half a cell off either wall, or in the middle. After
+/// share_cells.
 void keep_out_of_gaps(const Basin& basin, FilledRegion& region);
 
 /// Whether a place is in a gap beside a body that is too narrow for particles, but for a film that they feel: none at a free body at rest.

@@ -16,6 +16,7 @@ constexpr double facing = 0.8;       // cosine: walls within 37° of facing each
 
 constexpr double placed = 2.0, shared = 3.0;  // cells: widths up to which particles are placed by their gap, and have its volume
 constexpr double tolerance = 0.01;            // cells: so that all particles of one gap agree on its width
+constexpr double whole_rows = 0.02;
 constexpr float least_share = 0.5f, most_share = 2.0f;
 
 /// A place between two walls that face each other.
@@ -117,7 +118,9 @@ void share_gaps(const Basin& basin, FilledRegion& region) {
     if (!has_water(region, region.position[c] + (gap.width - gap.near - 0.5 * gap.cell) * gap.across))
       continue;  // not filled to the wall across
     const double rows = rows_across(crowd, gap, region.position[c], region.step);
-    region.share[c] = std::clamp(static_cast<float>(gap.width / (gap.cell * rows)), least_share, most_share);
+    const double of_gap = gap.width / (gap.cell * rows);
+    if (std::abs(of_gap - 1) < whole_rows) continue;  // the lattice fills it, and other walls may cut its cells
+    region.share[c] = std::clamp(static_cast<float>(of_gap), least_share, most_share);
   }
 }
 

@@ -85,8 +85,9 @@ std::map<int, PartedWater> find_parted_water(const Basin& basin, double spacing,
     if (owner < 0) continue;
     PartedWater& water = parted[owner];
     for (const std::size_t c : groups[g]) {
-      water.volume += region.volume;
-      water.moment += region.volume * region.position[c];
+      const double volume = region.share[c] * region.volume;
+      water.volume += volume;
+      water.moment += volume * region.position[c];
     }
   }
   return parted;

@@ -23,15 +23,17 @@ int cores_here() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
 }
 
-/// Whatever lies in a third corner of two dimensions is left out.
-std::uint64_t digest_of_walls(const std::vector<Facet>& facets, int dimensions) {
+/// Of what each process has laid out for itself: walls, and what the particles are given at the start. Whatever lies in a third corner of
+/// two dimensions is left out.
+std::uint64_t digest_of_layout(const Layout& layout, int dimensions) {
   std::uint64_t digest = digest_of("walls");
   const auto add = [&digest](const void* bytes, std::size_t size) { digest = digest_of({static_cast<const char*>(bytes), size}, digest); };
-  for (const Facet& facet : facets) {
+  for (const Facet& facet : layout.facets) {
     for (int k = 0; k < dimensions; ++k) add(facet.corners[k].data(), sizeof(Eigen::Vector3d));
     add(facet.normal.data(), sizeof(Eigen::Vector3d));
     add(&facet.owner, sizeof facet.owner);
   }
+  for (const std::vector<double>* values : {&layout.volumes, &layout.levels}) add(values->data(), values->size() * sizeof(double));
   return digest;
 }
 
@@ -79,7 +81,7 @@ class PartServerOf final : public PartServer {
                const Discretisation& discretisation, const std::vector<Eigen::Vector3d>& centres)
       : device_(device),
         group_(*rows.parting->group),
-        walls_(digest_of_walls(dry.facets, discretisation.dimensions)),
+        layout_(digest_of_layout(dry, discretisation.dimensions)),
         solver_(rows, device, scene, dry, discretisation, centres) {}
 
   Bytes obey(const Bytes& order) override {
@@ -158,7 +160,7 @@ class PartServerOf final : public PartServer {
   }
   PartFacts facts() const override {
     const compute::DeviceInfo& info = device_.info();
-    return {solver_.digest() ^ walls_, info.describe(), info.name + " (" + info.platform_name + ", driver " + info.driver + ")",
+    return {solver_.digest() ^ layout_, info.describe(), info.name + " (" + info.platform_name + ", driver " + info.driver + ")",
             cores_here(), info.is_gpu ? 0 : static_cast<int>(info.compute_units)};
   }
   Bytes laid_out_state(const Layout& layout) const override { return solver_.laid_out_state(layout); }
@@ -226,7 +228,7 @@ class PartServerOf final : public PartServer {
 
   compute::Device device_;
   parallel::Group& group_;
-  std::uint64_t walls_;
+  std::uint64_t layout_;
   SphSolver<Real> solver_;
   StepReport report_;
   PackingReport packing_;
