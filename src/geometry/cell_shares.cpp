@@ -41,23 +41,21 @@ class CellSharing {
 
   void share(int i, int j, int k) {
     const std::size_t cell = region_.index(i, j, k);
-    if (!region_.filled[cell]) {
-      if (is_over_surface(i, j, k)) return;
-      find_neighbours(i, j, k);
-      if (neighbours_.empty()) return;
-    }
+    const bool has_own = region_.filled[cell] != 0;
+    if (!has_own && is_over_surface(i, j, k)) return;
     const Vector3d middle = middle_of(i, j, k), sides = sides_of(cell);
     const auto wall = basin_.grid->nearest(middle, 0.5 * sides.norm() * (1 + 1e-6));
     if (!wall || is_a_side(wall->point - middle, wall->distance, sides)) return;
-    if (region_.filled[cell]) find_neighbours(i, j, k);
+    find_neighbours(i, j, k);
+    if (!has_own && neighbours_.empty()) return;
     const double part = 1.0 / static_cast<double>(places_.size());
-    if (region_.filled[cell]) region_.share[cell] -= 1;
+    if (has_own) region_.share[cell] -= 1;
     for (const Vector3d& place_in_cell : places_) {
       const Vector3d offset = place_in_cell.cwiseProduct(sides), place = middle + offset;
       const bool before_wall = offset.norm() < wall->distance && region_.position[cell] == middle;  // no need to look
-      if (region_.filled[cell] && (before_wall || sees(cell, place))) {
+      if (has_own && (before_wall || sees(cell, place))) {
         region_.share[cell] += static_cast<float>(part);
-      } else if (const auto other = nearest_that_sees(place, region_.filled[cell] ? most_asked_behind : most_asked)) {
+      } else if (const auto other = nearest_that_sees(place, has_own ? most_asked_behind : most_asked)) {
         region_.share[*other] += static_cast<float>(part * sides.z() / sides_of(*other).z());
       }
     }
